@@ -95,7 +95,7 @@ def messages_with_headings(page: Path) -> str:
     for found in tables_of(page):
         for key, severity, meaning, remedy in found.rows:
             text += f"## {key.strip('`')}\n\n*{severity.capitalize()}.* {meaning}\n\n"
-            text += f"What to do: {remedy}.\n\n" if remedy else ""
+            text += f"*Remedy.* {remedy}.\n\n" if remedy else ""
     return text
 
 

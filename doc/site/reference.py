@@ -290,7 +290,7 @@ class Reference:
             page += f"(message-{entry['key']})=\n## {entry['key']}\n\n*{entry['severity'].capitalize()}.* "
             page += self._linked(entry["meaning"]) + "\n\n"
             if entry["remedy"]:
-                page += f"What to do: {self._linked(entry['remedy'])}.\n\n"
+                page += f"*Remedy.* {self._linked(entry['remedy'])}.\n\n"
             pages = self._mentions(rf"\b{re.escape(entry['key'])}\b(?!\.)", 0)
             if pages:
                 page += f"See also: {', '.join(pages)}\n\n"
