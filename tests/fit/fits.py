@@ -207,11 +207,12 @@ class Command(unittest.TestCase):
 
     def test_help_without_packages(self) -> None:
         program = Path(__file__).resolve().parents[2] / "tools/billet-fit"
-        for arguments, code, part in (
+        cases: tuple[tuple[list[str], int, str], ...] = (
             (["--help"], 0, "Fits constants of laws of rubber"),
             ([], 2, "the following arguments are required: data"),
             (["data.csv", "--poisson", "0.5"], 2, "--poisson: a number > -1"),
-        ):
+        )
+        for arguments, code, part in cases:
             said = [sys.executable, "-S", "-B", str(program), *arguments]  # -S: no packages
             done = subprocess.run(said, capture_output=True, text=True)
             self.assertEqual(done.returncode, code, done.stderr)
