@@ -410,7 +410,7 @@ def faults_of_description(text: str) -> list[str]:
     """Returns the sentences of a description that are too long. What it quotes counts as code."""
     text = re.sub(r"(?<!\w)'([^'\n]+?)'(?!\w)", r"`\1`", text)
     # The meaning of a value begins with its name, which may be in small letters: "none: no friction".
-    text = re.sub(r"\. (?=[a-z][\w |-]*(?:, [\w ]+)*:)", ". The ", text)
+    text = re.sub(r"\. (?=[a-z][\w |-]*(?:, [\w >.]+)*:)", ". The ", text)
     return [sentence for sentence in sentences_of(text) if n_words(sentence) > MAX_WORDS]
 
 

@@ -17,8 +17,8 @@ using Kind = TypeParameter::Kind;
 using Point = Profile::Point;
 
 const std::string corners_meaning =
-    "Corners of the profile, separated by semicolons. 'x, y' is a corner; ': r' after it adds a fillet of "
-    "radius r; 'via x, y to' before it makes an arc instead of a line. ";
+    "Corners of the profile, separated by semicolons. A corner is 'x, y'. A number ': r' behind it adds a "
+    "fillet of radius r. Words 'via x, y to' before it make an arc instead of a line. ";
 const TypeParameter outside_parameter{"Outside", "left", Kind::choice,
                                       "left|right: Side of the bodies, in the direction of the corners."};
 
@@ -232,8 +232,8 @@ SurfaceType swept_profile_type() {
        {"Corner radius", "0.5", Kind::number,
         "> 0, at most half of both lengths. Radius of the path's corners. [length]"},
        {"Inside", "open", Kind::choice,
-        "open|flat: flat closes the inside of the path by a flat face at the height of the first corner, "
-        "which may have a fillet then; open leaves a hole."},
+        "open|flat: Inside of the path. open: a hole. flat: a flat face at the height of the first corner, "
+        "which may have a fillet then."},
        {"Origin", "0, 0, 0", Kind::text, "Centre of the rectangle, at y = 0. [length]"},
        {"Axis", "0, 0, 1", Kind::text, "Direction across the rectangle."},
        {"Direction", "1, 0, 0", Kind::text,
