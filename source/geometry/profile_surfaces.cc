@@ -96,12 +96,12 @@ Profile::Outside read_outside(const TypeInput &input) {
 SurfaceType revolved_profile_type() {
   return {"revolved profile",
           "Lines and arcs in a plane through an axis, revolved about it, over a full turn or a sector.",
-          with_sector(
-              {{"Corners", "", Kind::text,
-                corners_meaning + "x >= 0 is the distance from the axis, y the position along it. [length]"},
-               outside_parameter,
-               {"Origin", "0, 0, 0", Kind::text, "Point of the axis at y = 0. [length]"},
-               {"Axis", "0, 0, 1", Kind::text, "Direction of the axis."}}),
+          with_sector({{"Corners", "", Kind::text,
+                        corners_meaning +
+                            "The distance from the axis is x >= 0, the position along it is y. [length]"},
+                       outside_parameter,
+                       {"Origin", "0, 0, 0", Kind::text, "Point of the axis at y = 0. [length]"},
+                       {"Axis", "0, 0, 1", Kind::text, "Direction of the axis."}}),
           [](const TypeInput &input) {
             const auto segments = read_segments(input);
             const Profile profile(segments, read_outside(input));
@@ -224,8 +224,8 @@ SurfaceType swept_profile_type() {
       "Lines and arcs in a plane, swept along a rectangle with rounded corners: a punch, a die or a binder "
       "frame for a drawn box.",
       {{"Corners", "", Kind::text,
-        corners_meaning + "x >= -'Corner radius' is the distance outwards from the path, y the position "
-                          "along the axis. [length]"},
+        corners_meaning + "The distance outwards from the path is x >= -'Corner radius', the position along "
+                          "the axis is y. [length]"},
        outside_parameter,
        {"Path lengths", "2, 2", Kind::text,
         "Lengths of the rectangle along 'Direction' and across it. [length]"},

@@ -587,8 +587,8 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
       "Refinement times", "", Patterns::Anything(),
       "Times, ascending and separated by commas, at each of which every brick of this body is divided into "
       "eight. Steps end there. The run continues on the finer mesh, to which it carries displacements, "
-      "velocities and the histories of the material. At most 5 times. Not with more than 2 'Points through "
-      "thickness'. Empty: the mesh remains. [time]");
+      "velocities and the histories of the material. At most 5 times, and not with more than 2 'Points "
+      "through thickness'. Empty: the mesh remains. [time]");
   prm.declare_entry(
       "Initial velocity", "0 ; 0 ; 0", Patterns::Anything(),
       "Dynamic scenes: initial velocity, three muParser expressions of the position x, y, z. [length/time]");
