@@ -150,7 +150,8 @@ const std::vector<TypeList> &type_lists() {
   return lists;
 }
 
-/// Prints a text in lines of at most 100 columns. The first line begins with `line`, the others with blanks.
+/// Prints a text in lines of at most 100 columns. The first line begins with `line`, the others
+/// with blanks.
 void print_wrapped(std::ostream &stream, const std::string &text, std::string line,
                    const std::size_t indent) {
   constexpr std::size_t width = 100;
@@ -167,8 +168,8 @@ void print_wrapped(std::ostream &stream, const std::string &text, std::string li
   stream << line << "\n";
 }
 
-/// Prints a text behind `first`, with the same indent in all lines. If `first` leaves it too little space, it
-/// has lines of its own.
+/// Prints a text behind `first`, with the same indent in all lines. If `first` leaves it too little
+/// space, it has lines of its own.
 void print_indented(std::ostream &stream, const std::string &text, std::string first,
                     const std::size_t indent) {
   constexpr std::size_t max_width = 70;
