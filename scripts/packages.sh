@@ -13,16 +13,16 @@
 # own deal.II, which libdeal.ii-dev would only shadow.
 set -euo pipefail
 
-if [[ ${BILLET_SKIP_PACKAGES:-0} != 0 ]]; then
-  exit 0
-fi
-
 case ${1:-} in
   -h | --help)
     sed -n '2,13s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
     exit 0
     ;;
 esac
+
+if [[ ${BILLET_SKIP_PACKAGES:-0} != 0 ]]; then
+  exit 0
+fi
 
 packages=()
 for group in "$@"; do

@@ -26,6 +26,7 @@ IN_NO_MENU = ("manual.md", "theory.md")  # lists of chapters, which old links le
 LEFT_OUT = {"site", "news"}  # folders of doc/ that are no pages
 BESIDE = (
     "cmake",
+    "examples",
     "include",
     "scripts",
     "source",
@@ -94,7 +95,7 @@ def messages_with_headings(page: Path) -> str:
     for found in tables_of(page):
         for key, severity, meaning, remedy in found.rows:
             text += f"## {key.strip('`')}\n\n*{severity.capitalize()}.* {meaning}\n\n"
-            text += f"What to do: {remedy}.\n\n" if remedy else ""
+            text += f"*Remedy.* {remedy}.\n\n" if remedy else ""
     return text
 
 

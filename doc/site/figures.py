@@ -212,7 +212,7 @@ FIGURES = (
     ),
     Figure(
         EXAMPLES,
-        r"force at any time by (\S+ %) at most",
+        r"force at any time differs by at most (\S+ %)",
         cell("deformable-dies.md", STIFF_DIES, "largest difference of the force"),
     ),
     Figure(

@@ -10,41 +10,10 @@ from collections import defaultdict
 from pathlib import Path
 from typing import Any, NamedTuple, Sequence
 
+import ranges
 from pages import code, escaped, prose, table, target
 
 NAME = "NAME"
-# Values of parameters that neither a shipped scene nor the guide sets, and whose default shows little.
-EXAMPLES = {
-    "Axis direction": "0, 0, 1",
-    "Axis point": "0, 0, 0",
-    "Body force": "0 ; 0 ; -7.7e-5",
-    "Decay coefficient": "0.5",
-    "Error tolerance": "1e-3",
-    "First axis": "1, 1, 0",
-    "Initial gap": "close within 0.1",
-    "Kinetic friction coefficient": "0.1",
-    "Mass scaling step": "5e-7",
-    "Maximum shear stress": "150",
-    "Merge nodes within": "1e-6",
-    "Moment of inertia": "2.5",
-    "Penetration tolerance": "1e-3",
-    "Pressure exponent": "0.8",
-    "Ramp time": "1",
-    "Reference pressure": "100",
-    "Release time": "0.5",
-    "Second axis": "0, 0, 1",
-    "Step interval": "20",
-    "Table": "0 : 250, 0.1 : 310, 0.5 : 380",
-    "Table file": "curve.csv",
-    "Curves file": "curves.csv",
-    "Forming limit": "-0.2 : 0.5, 0 : 0.3, 0.3 : 0.4",
-    "Forming limit file": "limit.csv",
-    "Curve rates": "0.001, 1, 1000",
-    "Rate table file": "rates.csv",
-    "Thermal table file": "softening.csv",
-    "Temperature": "20",
-}
-BEGINS_WITH_RANGE = re.compile(r"^([^.:]{0,24}?[<>]=? ?-?[\w./]+(?: \+ \w+)?(?:, [^.:]{1,20})?)\. ")
 UNIT = re.compile(r"\s*\[([^\[\]]+)\]$")
 
 
@@ -76,9 +45,9 @@ class Reference:
         self._pages = pages  # all other pages of the site by path, to link to
         self._schema = json.loads(self._ask("--print-parameters", "--json"))
         self.parameters = list(self._collect(self._schema, ()))
-        unknown = set(EXAMPLES) - {parameter.name for parameter in self.parameters}
-        if unknown:
-            raise SystemExit(f"reference.py: examples of unknown parameters {sorted(unknown)}")
+        known = {ranges.key_of(parameter.path, parameter.name) for parameter in self.parameters}
+        if set(ranges.RANGES) - known:
+            raise SystemExit(f"ranges.py: no parameter has {sorted(set(ranges.RANGES) - known)}")
         self.messages: list[dict[str, str]] = json.loads(self._ask("--print-diagnostics", "--json"))
         self.lists: list[dict[str, str]] = json.loads(self._ask("--list", "--json"))
         self._examples = self._find_examples()
@@ -87,7 +56,19 @@ class Reference:
         return self._ask("--help")
 
     def write(self) -> dict[str, str]:
-        """Returns the pages by path."""
+        """Returns the pages by path. Every parameter must have a range, an example and a link."""
+        lacking = [
+            f"{'/'.join((*parameter.path, parameter.name))}: no {what}"
+            for parameter in self.parameters
+            for what, text in (
+                ("range", self._range(parameter)),
+                ("example", self._example(parameter)),
+                ("link", self._links(parameter)),
+            )
+            if not text
+        ]
+        if lacking:
+            raise SystemExit("reference.py: " + "\n              ".join(lacking))
         pages = {"messages.md": self._message_page()}
         sections: dict[str, list[Parameter]] = defaultdict(list)
         for parameter in self.parameters:
@@ -125,6 +106,7 @@ class Reference:
         known = {(parameter.path, parameter.name): parameter for parameter in self.parameters}
         shipped = sorted((self._root / "prm").glob("*.prm"))
         parts = sorted((self._root / "prm").glob("*/*.prm"))
+        examples = sorted((self._root / "examples").rglob("*.prm"))
         # Scenes of tests/ that run; others there are wrong on purpose.
         tests = [
             file
@@ -132,7 +114,7 @@ class Reference:
             for file in sorted((self._root / "tests" / folder).glob("*.prm"))
             if not file.name.startswith("bad_")
         ]
-        for file in [*shipped, *parts, *tests]:
+        for file in [*shipped, *parts, *examples, *tests]:
             path: list[str] = []
             for line in file.read_text(encoding="utf-8", errors="replace").splitlines():
                 words = line.split("#")[0].strip()
@@ -211,27 +193,14 @@ class Reference:
         schema = parameter.schema
         text = schema["description"]
         unit = UNIT.search(text)
-        text = UNIT.sub("", text)
-        begins = BEGINS_WITH_RANGE.match(text + " ")
-        allowed = ""
-        if "enum" in schema:
-            allowed = ", ".join(code(str(value)) for value in schema["enum"])
-        elif begins:
-            allowed = escaped(begins[1])
-            text = text[begins.end() :].strip() or text
-        elif schema["type"] in ("integer", "number"):
-            allowed = self._number_range(schema)
-        elif schema["type"] == "boolean":
-            allowed = "`true`, `false`"
-        else:
-            allowed = "text, as described"
+        text = ranges.beginning_of(UNIT.sub("", text))[1]
         default = schema.get("default", "")
         default = str(default).lower() if isinstance(default, bool) else str(default)
         page = f"({parameter.target})=\n### {escaped(parameter.name)}\n\n{self._meaning(text, schema)}\n\n"
-        page += f"- Default: {code(default)}\n- Range: {allowed}\n"
+        page += f"- Default: {code(default)}\n- Range: {self._range(parameter)}\n"
         page += f"- Unit: {escaped(unit[1]) if unit else 'none'}\n"
         page += f"- For `--set`: {code('/'.join((*parameter.path, parameter.name)))}\n"
-        page += self._example(parameter)
+        page += f"- Example: {self._example(parameter)}\n"
         name = re.escape(parameter.name)
         messages = [
             f"[{message['key']}](message-{message['key']})"
@@ -240,50 +209,53 @@ class Reference:
         ]
         if messages:
             page += f"- Messages: {', '.join(messages)}\n"
-        pages = self._mentions(rf"(?:`|set |/){name}(?:`|\s*=)", 2)
-        if pages:
-            page += f"- See also: {', '.join(pages)}\n"
-        return page + "\n"
+        return page + f"- See also: {self._links(parameter)}\n\n"
+
+    def _range(self, parameter: Parameter) -> str:
+        """Returns what a parameter allows: by the schema, the table, or the start of the description."""
+        schema = parameter.schema
+        if "enum" in schema:
+            return ", ".join(code(str(value)) for value in schema["enum"])
+        if schema["type"] == "boolean":
+            return "`true`, `false`"
+        key = ranges.key_of(parameter.path, parameter.name)
+        if key:
+            return ranges.RANGES[key].replace("<", "\\<").replace(">", "\\>")
+        begins = ranges.beginning_of(schema["description"])[0]
+        return escaped(begins) if begins else ranges.range_of_number(schema)
+
+    def _links(self, parameter: Parameter) -> str:
+        """Returns links to the pages that name a parameter."""
+        name = re.escape(parameter.name).replace(r"\ ", r"\s+")
+        return ", ".join(self._mentions(rf"(?:`|set |/){name}(?:`|\s*=)", 2))
 
     def _example(self, parameter: Parameter) -> str:
-        """Returns a line of a scene, else of the guide, else one with a value that the parameter accepts."""
-        example = self._examples.get((parameter.path, parameter.name))
+        """Returns a line of a scene, else of the guide; or of a parameter of the same name and meaning."""
+        alike = [
+            self._examples.get((other.path, other.name))
+            for other in (parameter, *self.parameters)
+            if other.name == parameter.name and other.schema == parameter.schema
+        ]
+        example = next((example for example in alike if example), None)
         if example:
-            line = code(f"set {parameter.name} = {example.value}")
-            return f"- Example: {line}, in {self._scene(example)}\n"
+            return f"{code(f'set {parameter.name} = {example.value}')}, in {self._scene(example)}"
         pattern = re.compile(rf"^ *set +{re.escape(parameter.name)} *= *([^#\n]+?) *(?:#.*)?$", re.MULTILINE)
         for page, text in sorted(self._pages.items()):
             found = pattern.search(text) if page.startswith("guide/") else None
             if found:
                 title = re.search(r"^# (.+)$", text, re.MULTILINE)
                 link = f"[{title[1] if title else page}](../../{page})"
-                return f"- Example: {code(f'set {parameter.name} = {found[1]}')}, in {link}\n"
-        default = parameter.schema.get("default", "")
-        if isinstance(default, bool):
-            default = str(not default).lower()
-        others = [value for value in parameter.schema.get("enum", []) if value != default]
-        quoted = re.search(r"such as '([^'=]+)'", parameter.schema["description"])
-        value = EXAMPLES.get(parameter.name) or (
-            others[0] if others else quoted[1] if quoted else str(default)
-        )
-        return f"- Example: {code(f'set {parameter.name} = {value}')}\n" if value else ""
+                return f"{code(f'set {parameter.name} = {found[1]}')}, in {link}"
+        return ""
 
     def _meaning(self, text: str, schema: dict[str, Any]) -> str:
-        """Returns a meaning, with the values of the parameter as a list if the text has all of them."""
-        starts = []
-        for value in schema.get("enum", []):
-            match = re.search(rf"(?:^|[.;:] ){re.escape(str(value))}(?:, [\w ]+)?: ", text)
-            if not match:
-                return self._linked(text)
-            starts.append(match.start() if match.start() == 0 else match.start() + 2)
-        if not starts:
-            return self._linked(text)
-        starts.sort()
-        lines = [self._linked(text[: starts[0]].strip()) + "\n"]
-        for begin, end in zip(starts, [*starts[1:], len(text)]):
-            value, meaning = text[begin:end].strip().rstrip(";.").split(": ", 1)
-            lines.append(f"* {code(value)}: {self._linked(meaning)}.")  # another bullet, another list
-        return "\n".join(lines).strip()
+        """Returns a meaning, with a list of the values that have one of their own."""
+        text, values = ranges.values_in(text, [str(value) for value in schema.get("enum", [])])
+        lines = [self._linked(text)] if text else []
+        for value, condition, meaning in values:
+            shown = value if value == "Empty" else code(value)
+            lines.append(f"* {shown}{escaped(condition)}: {self._linked(meaning)}")  # not the bullet below
+        return "\n".join(lines if not text else [lines[0] + ("\n" if values else ""), *lines[1:]])
 
     def _scene(self, example: Example) -> str:
         """Returns a link to a scene, or to its page where it has one."""
@@ -291,17 +263,6 @@ class Reference:
         if path.parent.as_posix() == "prm" and f"scenes/{path.stem}.md" in self._pages:
             return f"[{path.name}](../../scenes/{path.stem}.md)"
         return f"[{path.name}](../../../{example.scene})"
-
-    @staticmethod
-    def _number_range(schema: dict[str, Any]) -> str:
-        kind = "whole numbers" if schema["type"] == "integer" else "numbers"
-        low, high = schema.get("minimum"), schema.get("maximum")
-        has_high = high is not None and abs(high) < 2e9
-        if low is not None and has_high:
-            return f"{kind} from {low:g} to {high:g}"
-        if low is not None and abs(low) < 2e9:
-            return f"{kind} from {low:g}"
-        return f"{kind} up to {high:g}" if has_high else kind
 
     def _parameter_index(self, sections: dict[str, list[Parameter]]) -> str:
         page = (
@@ -329,7 +290,7 @@ class Reference:
             page += f"(message-{entry['key']})=\n## {entry['key']}\n\n*{entry['severity'].capitalize()}.* "
             page += self._linked(entry["meaning"]) + "\n\n"
             if entry["remedy"]:
-                page += f"What to do: {self._linked(entry['remedy'])}.\n\n"
+                page += f"*Remedy.* {self._linked(entry['remedy'])}.\n\n"
             pages = self._mentions(rf"\b{re.escape(entry['key'])}\b(?!\.)", 0)
             if pages:
                 page += f"See also: {', '.join(pages)}\n\n"
@@ -340,6 +301,18 @@ class Reference:
         rows = [(f"[{entry['name']}]({entry['name']}.md)", prose(entry["meaning"])) for entry in self.lists]
         page += table(("list", "meaning"), rows) + "```{toctree}\n:hidden:\n\n"
         return page + "".join(f"{entry['name']}\n" for entry in self.lists) + "```\n"
+
+    @staticmethod
+    def _in_cell(text: str) -> str:
+        """Returns a meaning in one line, with its values as code."""
+        choices = re.match(r"[\w -]+(?:\|[\w -]+)+(?=: )", text)
+        text, values = ranges.values_in(text, choices[0].split("|") if choices else [])
+        parts = [prose(text)] if text else []
+        for value, condition, meaning in values:
+            parts.append(
+                f"{value if value == 'Empty' else code(value)}{escaped(condition)}: {prose(meaning)}"
+            )
+        return " ".join(parts)
 
     def _list_page(self, entry: dict[str, str]) -> str:
         page = (
@@ -357,7 +330,7 @@ class Reference:
                 head = ("name", "default", "meaning") if has_defaults else ("name", "meaning")
                 rows = []
                 for parameter in parameters:
-                    row = [code(parameter["name"]), prose(parameter["meaning"])]
+                    row = [code(parameter["name"]), self._in_cell(parameter["meaning"])]
                     if has_defaults:
                         row.insert(1, code(parameter["default"]) if parameter["default"] else "–")
                     rows.append(row)

@@ -161,9 +161,8 @@ inline const DiagnosticKind inverted_elements(
     "inverted-elements", Severity::warning,
     "Elements of a body have become inverted at a corner in an accepted state. Stresses there are wrong. The "
     "message names the worst of them by its 'element_id' in the field output.",
-    "Use smaller bricks there, or ones that are longer in the direction in which they are compressed; where "
-    "a "
-    "tool's radius or edge does it, a larger radius");
+    "Use smaller bricks there, or ones that are longer in the direction in which they are compressed. If a "
+    "tool's radius or edge inverts them, use a larger radius");
 
 inline const DiagnosticKind inverted_at_end(
     "inverted-at-end", Severity::warning,
@@ -283,16 +282,15 @@ inline const DiagnosticKind numerical_dissipation(
     "numerical-dissipation", Severity::warning,
     "Implicit time integration dissipates, or creates, more than 5 % of the maximum "
     "energy: its steps do not resolve the motion.",
-    "If the damped motion matters, reduce 'Error tolerance' or 'Maximum step'; 'Method "
-    "= Newmark' with 'Gamma = 0.5' adds no damping, but contact that opens or closes within a step "
-    "dissipates with every method");
+    "If the damped motion matters, reduce 'Error tolerance' or 'Maximum step'. 'Method = Newmark' with "
+    "'Gamma = 0.5' adds no damping. Contact that opens or closes within a step dissipates with every method");
 
 inline const DiagnosticKind bulk_viscosity(
     "bulk-viscosity", Severity::note,
     "The bulk viscosity of explicit dynamics dissipates more than 5 % of the maximum energy. It "
     "spreads shocks, and damps waves that few elements resolve.",
-    "If bodies should rebound, or waves go on, use smaller elements, or reduce 'Linear bulk "
-    "viscosity'; the energies show whether that makes them ring");
+    "If bodies should rebound, or waves go on, use smaller elements, or reduce 'Linear bulk viscosity'. The "
+    "energies show whether that makes them ring");
 
 inline const DiagnosticKind
     lumped_inertia("lumped-inertia", Severity::warning,
@@ -437,12 +435,12 @@ inline const DiagnosticKind mesh_target_missed(
     "'Target error'. The message says what the target would take. The program exits with code 7.",
     "Increase 'Finest mesh level', or choose a larger 'Target error'");
 
-inline const DiagnosticKind unneeded_cost(
-    "unneeded-cost", Severity::note,
-    "The run spent more than a tenth of its time on what the scene did not need. Examples are an unsymmetric "
-    "matrix where nothing slides, self-contact of surfaces that never touch, output of fields, or steps far "
-    "finer than the 'Target error' requires.",
-    "Leave out or change what the message names");
+inline const DiagnosticKind
+    unneeded_cost("unneeded-cost", Severity::note,
+                  "The run spent more than a tenth of its time on what the scene did not need. Examples are "
+                  "an unsymmetric matrix where nothing slides and self-contact of surfaces that never touch. "
+                  "Others are output of fields, and steps far finer than the 'Target error' requires.",
+                  "Leave out or change what the message names");
 
 inline const DiagnosticKind target_error_expensive(
     "target-error-expensive", Severity::warning,

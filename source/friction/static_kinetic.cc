@@ -17,7 +17,7 @@ FrictionLawType static_kinetic_type() {
   using Kind = TypeParameter::Kind;
   return {
       "static-kinetic",
-      "mu falls from rest to fast sliding as mu_k + (mu - mu_k) exp(-c v), v the slip rate",
+      "mu falls from rest to fast sliding as mu_k + (mu - mu_k) exp(-c v), where v is the slip rate",
       {friction_coefficient_parameter,
        {"Kinetic friction coefficient", "0", Kind::number,
         "0 < mu_k <= mu. Friction coefficient of fast sliding."},

@@ -11,20 +11,19 @@ using dealii::Tensor;
 
 std::vector<TypeParameter> Axes::parameters() {
   using Kind = TypeParameter::Kind;
-  return {
-      {"Axes", "global", Kind::choice,
-       "global|local|cylindrical: what the components refer to: x, y, z; a fixed triad of 'First axis' and "
-       "'Second axis'; or radius, circumference and axis about the line of 'Axis point' and 'Axis "
-       "direction', at the undeformed position."},
-      {"First axis", "", Kind::text, "Local axes: vector 'x, y, z' of any length along the first axis."},
-      {"Second axis", "", Kind::text,
-       "Local axes: vector 'x, y, z'. Its part across the first axis is along the second one; the third "
-       "one follows by the right-hand rule."},
-      {"Axis point", "", Kind::text,
-       "Cylindrical axes: point 'x, y, z' of the line; empty is the origin. [length]"},
-      {"Axis direction", "", Kind::text,
-       "Cylindrical axes: vector 'x, y, z' along the line, about which the circumference turns by the "
-       "right-hand rule."}};
+  return {{"Axes", "global", Kind::choice,
+           "global|local|cylindrical: Axes of the components. global: x, y, z. local: a fixed triad of "
+           "'First axis' and 'Second axis'. cylindrical: radius, circumference and axis at the undeformed "
+           "position, about the line of 'Axis point' and 'Axis direction'."},
+          {"First axis", "", Kind::text, "Local axes: vector 'x, y, z' of any length along the first axis."},
+          {"Second axis", "", Kind::text,
+           "Local axes: vector 'x, y, z'. Its part across the first axis is along the second one. The third "
+           "one follows by the right-hand rule."},
+          {"Axis point", "", Kind::text,
+           "Cylindrical axes: point 'x, y, z' of the line. Empty: the origin. [length]"},
+          {"Axis direction", "", Kind::text,
+           "Cylindrical axes: vector 'x, y, z' along the line, about which the circumference turns by the "
+           "right-hand rule."}};
 }
 
 Axes::Axes(const TypeInput &input) {

@@ -18,9 +18,9 @@ using Sketch = std::array<CurveSketch, 4>;
 
 const std::string curves_meaning =
     "Four curves around the patch, separated by semicolons, each from the end of the one before. They run "
-    "counter-clockwise as seen from the bodies, right-handed about the normal. A curve is 'line: x, y, z to "
-    "x, y, z', 'arc: x, y, z via x, y, z to x, y, z', 'spline: x, y, z via x, y, z via ... to x, y, z' (a "
-    "natural cubic spline), or 'point: x, y, z' for a side that shrinks to a point. [length]";
+    "counter-clockwise as seen from the bodies, right-handed about the normal. A line is 'line: x, y, z to "
+    "x, y, z'. An arc is 'arc: x, y, z via x, y, z to x, y, z'. A natural cubic spline is 'spline: x, y, z "
+    "via x, y, z via ... to x, y, z'. A side that shrinks to a point is 'point: x, y, z'. [length]";
 
 Sketch read_curves(const std::vector<std::string> &parts) {
   if (parts.size() != 4)

@@ -17,8 +17,8 @@ using Kind = TypeParameter::Kind;
 using Point = Profile::Point;
 
 const std::string corners_meaning =
-    "Corners of the profile, separated by semicolons. 'x, y' is a corner; ': r' after it adds a fillet of "
-    "radius r; 'via x, y to' before it makes an arc instead of a line. ";
+    "Corners of the profile, separated by semicolons. A corner is 'x, y'. A number ': r' behind it adds a "
+    "fillet of radius r. Words 'via x, y to' before it make an arc instead of a line. ";
 const TypeParameter outside_parameter{"Outside", "left", Kind::choice,
                                       "left|right: Side of the bodies, in the direction of the corners."};
 
@@ -96,12 +96,12 @@ Profile::Outside read_outside(const TypeInput &input) {
 SurfaceType revolved_profile_type() {
   return {"revolved profile",
           "Lines and arcs in a plane through an axis, revolved about it, over a full turn or a sector.",
-          with_sector(
-              {{"Corners", "", Kind::text,
-                corners_meaning + "x >= 0 is the distance from the axis, y the position along it. [length]"},
-               outside_parameter,
-               {"Origin", "0, 0, 0", Kind::text, "Point of the axis at y = 0. [length]"},
-               {"Axis", "0, 0, 1", Kind::text, "Direction of the axis."}}),
+          with_sector({{"Corners", "", Kind::text,
+                        corners_meaning +
+                            "The distance from the axis is x >= 0, the position along it is y. [length]"},
+                       outside_parameter,
+                       {"Origin", "0, 0, 0", Kind::text, "Point of the axis at y = 0. [length]"},
+                       {"Axis", "0, 0, 1", Kind::text, "Direction of the axis."}}),
           [](const TypeInput &input) {
             const auto segments = read_segments(input);
             const Profile profile(segments, read_outside(input));
@@ -224,16 +224,16 @@ SurfaceType swept_profile_type() {
       "Lines and arcs in a plane, swept along a rectangle with rounded corners: a punch, a die or a binder "
       "frame for a drawn box.",
       {{"Corners", "", Kind::text,
-        corners_meaning + "x >= -'Corner radius' is the distance outwards from the path, y the position "
-                          "along the axis. [length]"},
+        corners_meaning + "The distance outwards from the path is x >= -'Corner radius', the position along "
+                          "the axis is y. [length]"},
        outside_parameter,
        {"Path lengths", "2, 2", Kind::text,
         "Lengths of the rectangle along 'Direction' and across it. [length]"},
        {"Corner radius", "0.5", Kind::number,
         "> 0, at most half of both lengths. Radius of the path's corners. [length]"},
        {"Inside", "open", Kind::choice,
-        "open|flat: flat closes the inside of the path by a flat face at the height of the first corner, "
-        "which may have a fillet then; open leaves a hole."},
+        "open|flat: Inside of the path. open: a hole. flat: a flat face at the height of the first corner, "
+        "which may have a fillet then."},
        {"Origin", "0, 0, 0", Kind::text, "Centre of the rectangle, at y = 0. [length]"},
        {"Axis", "0, 0, 1", Kind::text, "Direction across the rectangle."},
        {"Direction", "1, 0, 0", Kind::text,

@@ -11,7 +11,7 @@ TimeIntegratorType hilber_hughes_taylor_type() {
   return {"HHT-alpha",
           "Hilber, Hughes & Taylor (1977), of second order, damps high frequencies",
           {{"Alpha", "-0.05", TypeParameter::Kind::number,
-            ">= -1/3 and <= 0. -1/3: maximum dissipation; 0: none."}},
+            ">= -1/3 and <= 0. -1/3: maximum dissipation. 0: none."}},
           [](const TypeInput &input) {
             constexpr double min_alpha = -1. / 3. - 1e-6; // -0.333333 is meant to be -1/3
             const double alpha = input.number("Alpha");

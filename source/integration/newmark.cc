@@ -8,9 +8,8 @@ TimeIntegrator newmark(const double beta, const double gamma) { return {0., 0., 
 TimeIntegratorType newmark_type() {
   using Kind = TypeParameter::Kind;
   return {"Newmark",
-          "Newmark (1959), without numerical dissipation of linear vibrations for gamma = 0.5; contact that "
-          "opens or "
-          "closes within a step dissipates all the same",
+          "Newmark (1959), without numerical dissipation of linear vibrations for gamma = 0.5. Contact that "
+          "opens or closes within a step dissipates all the same",
           {{"Beta", "0.25", Kind::number, ">= gamma / 2, for unconditional stability."},
            {"Gamma", "0.5", Kind::number,
             ">= 0.5. Values above 0.5 damp high frequencies, with first-order accuracy."}},

@@ -91,8 +91,8 @@ LoadType force_type() {
             "ids'. [length]"},
            loaded_nodes(),
            {"Place", "material point", TypeParameter::Kind::choice,
-            "material point|nearest node: the force acts on the nodes around the point, by their shape "
-            "functions, or on the node nearest to it."}}),
+            "material point|nearest node: Nodes on which the force acts. material point: those around the "
+            "point, by their shape functions. nearest node: the one nearest to it."}}),
       make_force};
 }
 

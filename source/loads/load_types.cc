@@ -26,10 +26,9 @@ TypeParameter loaded_faces() {
 }
 
 TypeParameter loaded_nodes() {
-  return {
-      "Nodes", "", TypeParameter::Kind::text,
-      "Nodes that bear the load in equal parts, in place of faces: 'at x, y, z ; on line x, y, z : x, y, z "
-      "; set NAME', as in supports."};
+  return {"Nodes", "", TypeParameter::Kind::text,
+          "Nodes that bear the load in equal parts, in place of faces, as in supports. 'at x, y, z ; on line "
+          "x, y, z : x, y, z ; set NAME' has all three forms."};
 }
 
 std::vector<TypeParameter> with_axes(std::vector<TypeParameter> parameters) {

@@ -54,7 +54,7 @@ private:
 
 LoadType rigid_face_type() {
   return {"rigid face",
-          "keeps the shape of the faces, which may move and turn as one rigid body; other loads on them act "
+          "keeps the shape of the faces, which may move and turn as one rigid body. Other loads on them act "
           "as on it",
           {loaded_faces(),
            {"Stiffness factor", "100", TypeParameter::Kind::number,

@@ -106,8 +106,8 @@ AnisotropyType hill_type() {
       "Hill's quadratic function of 1948, in axes that turn with the material",
       {{"r-values", "", Kind::text,
         "r0, r45, r90 > 0. Strain rates across over those through a sheet, in tension at 0, 45 and 90 "
-        "degrees "
-        "to the first of 'Axes'; the third one is the sheet's normal. The flow stress is that at 0 degrees."},
+        "degrees to the first of 'Axes'. The third of 'Axes' is the sheet's normal. The flow stress is that "
+        "at 0 degrees."},
        {"Stress ratios", "", Kind::text,
         "R11, R22, R33, R12, R13, R23 > 0, in the place of r-values. Yield stresses in 'Axes' over the flow "
         "stress, those of shear over that of von Mises; 1, 1, 1, 1, 1, 1 is isotropic."}},

@@ -117,7 +117,7 @@ ElasticityType neo_hookean_type() {
 ElasticityType hypoelastic_type() {
   return isotropic_elasticity_type(hypoelastic,
                                    "stress rates with the final rotation of the step (Bittencourt & Creus "
-                                   "1998); the error grows with the step",
+                                   "1998). The error grows with the step",
                                    &make_hypoelastic_law);
 }
 

@@ -14,7 +14,7 @@ ElasticityType ogden_type() {
   return hyperelastic_type(
       "Ogden", "W = sum M/a (l1^a + l2^a + l3^a - 3) of principal stretches, rubber up to large strains",
       {{moduli_key, "", Kind::text,
-        "M of each term, separated by commas; half of the sum of M a is the shear modulus. [stress]"},
+        "M of each term, separated by commas. Half of the sum of M a is the shear modulus. [stress]"},
        {exponents_key, "", Kind::text, "a of each term, not 0, separated by commas."}},
       moduli_key, [](const TypeInput &input) {
         std::vector<double> moduli = input.numbers(moduli_key), exponents = input.numbers(exponents_key);

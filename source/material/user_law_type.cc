@@ -48,7 +48,7 @@ std::vector<TypeParameter> user_law_parameters() {
       {name_key, "UMAT", Kind::text,
        "CMNAME, at most 80 characters, by which a library tells several materials apart."},
       {symmetry_key, "false", Kind::flag,
-       "Whether the tangent is unsymmetric; else its symmetric part counts."},
+       "Whether the tangent is unsymmetric. Otherwise its symmetric part counts."},
       {length_key, "1", Kind::number, "> 0. CELENT, charLength, the same for all elements. [length]"},
       {temperature_key, "false", Kind::flag,
        "Whether the temperatures are those of 'Temperature', which the scene must then give."}};

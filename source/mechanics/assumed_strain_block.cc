@@ -87,8 +87,8 @@ std::vector<TypeParameter> layer_parameters() {
                "thickness rather than one."},
           {direction_key, "", TypeParameter::Kind::text,
            "Direction from the inner to the outer side, for more than 2 points through the thickness. Three "
-           "muParser expressions of the undeformed position x, y, z, such as '0 ; 0 ; 1' for a plate or 'x ; "
-           "y ; 0' for a tube about z. Each brick uses its axis nearest to it."}};
+           "muParser expressions of the undeformed position x, y, z. '0 ; 0 ; 1' is that of a plate, 'x ; y "
+           "; 0' that of a tube about z. Each brick uses its axis nearest to it."}};
 }
 
 void read_layers(const TypeInput &input, ElementChoice &choice) {

@@ -82,7 +82,7 @@ void Mesh::declare(ParameterHandler &prm) {
       "quadrilaterals in a plane z = constant. "
       "Forces, moments and energies are those of the width 'Height', so per unit of width "
       "with its default, 1. axisymmetric: one layer of the two-dimensional primitive, turned about its axis "
-      "of y by 'Wedge angle'; x is the radius, >= 0, and y becomes z. Both sides are symmetry planes through "
+      "of y by 'Wedge angle'. The radius is x, >= 0, and y becomes z. Both sides are symmetry planes through "
       "the axis of z. Forces, moments, loads and energies are those of the wedge; history and console have "
       "forces of the full circle. solid: no such planes.");
   prm.declare_entry(
@@ -286,17 +286,17 @@ std::vector<TypeParameter> flow_rule_parameters() {
 void Material::declare(ParameterHandler &prm) {
   std::string of_types;
   for (const auto &type : law_types())
-    of_types += "; " + type.name + ": " + type.meaning;
+    of_types += ". " + type.name + ": " + type.meaning;
   prm.declare_entry("Law", "automatic", Patterns::Selection(selection(laws) + "|" + law_types().names()),
-                    "elastic: no plasticity; elastoplastic: plasticity (yield in Kirchhoff stress, exact "
-                    "return map); automatic: elastoplastic if a parameter of hardening or rate factors is "
+                    "elastic: no plasticity. elastoplastic: plasticity (yield in Kirchhoff stress, exact "
+                    "return map). automatic: elastoplastic if a parameter of hardening or rate factors is "
                     "set, such as 'Yield stress', and elastic otherwise" +
                         of_types + ".");
   join_parameters(law_types()).declare(prm);
   declare_selection(prm, "Elasticity", "Hencky", elasticity_types(),
                     "Elastic law, and how it combines with plasticity.");
   declare_selection(prm, volumetric_law_key, "logarithmic", volumetric_law_types(),
-                    "Volumetric part of the stored energy of rubber, over J = det F; K is the bulk modulus.");
+                    "Volumetric part of the stored energy of rubber, over J = det F. K is the bulk modulus.");
   prm.declare_entry("Density", "0", Patterns::Double(),
                     "Density of the undeformed body, > 0 in dynamic scenes and for loads on the mass. "
                     "[mass/length^3]");
@@ -437,22 +437,20 @@ void Support::declare(ParameterHandler &prm) {
   prm.declare_entry("Components", "x, y, z", Patterns::Anything(),
                     "Components of the displacement that are prescribed: x, y and z are the first, second "
                     "and third of 'Axes'.");
-  prm.declare_entry(
-      "Displacement", "0 ; 0 ; 0", Patterns::Anything(),
-      "Prescribed displacement: one muParser expression for each of x, y, z, or for each of "
-      "'Components' alone, "
-      "in the order x, y, z; of the reference position x, y, z, the time t and the names of "
-      "amplitudes. Of "
-      "other components only 0 is allowed. In cylindrical 'Axes', components x and y held together "
-      "turn a node by its circumferential displacement over its radius. [length]");
+  prm.declare_entry("Displacement", "0 ; 0 ; 0", Patterns::Anything(),
+                    "Prescribed displacement: three muParser expressions, or one for each of 'Components', "
+                    "in the order x, y, z. They depend on the reference position x, y, z, the time t and the "
+                    "names of amplitudes. Components that are not prescribed allow only 0. In cylindrical "
+                    "'Axes', components x and y held together "
+                    "turn a node by its circumferential displacement over its radius. [length]");
   for (const TypeParameter &parameter : Axes::parameters())
     declare_parameter(prm, parameter, parameter.meaning);
   prm.declare_entry("From", "0", Patterns::Double(),
-                    ">= 0. Time at which the support begins; a step ends there. From a later time than 0 on, "
+                    ">= 0. Time at which the support begins. A step ends there. From a later time than 0 on, "
                     "it holds the nodes where they are then, and moves them by the change of 'Displacement' "
                     "since. [time]");
   prm.declare_entry("Until", "", Patterns::Anything(),
-                    "> 'From'. Time at which the support lets its nodes go; a step ends there. Empty: never. "
+                    "> 'From'. Time at which the support lets its nodes go. A step ends there. Empty: never. "
                     "[time]");
   prm.declare_entry(
       "Fade time", "", Patterns::Anything(),
@@ -530,7 +528,7 @@ void Load::declare(ParameterHandler &prm) {
   prm.declare_entry("From", "0", Patterns::Double(),
                     ">= 0. Time at which the load begins to act. A step ends there. [time]");
   prm.declare_entry("Until", "", Patterns::Anything(),
-                    "> 'From'. Time at which the load is switched off; a step ends there. Empty: never. "
+                    "> 'From'. Time at which the load is switched off. A step ends there. Empty: never. "
                     "[time]");
   prm.declare_entry(
       "Fade time", "", Patterns::Anything(),
@@ -588,15 +586,15 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
   prm.declare_entry(
       "Refinement times", "", Patterns::Anything(),
       "Times, ascending and separated by commas, at each of which every brick of this body is divided into "
-      "eight; steps end there. The run continues on the finer mesh, to which it carries displacements, "
-      "velocities and the histories of the material. At most 5 times. Not with more than 2 'Points through "
-      "thickness'. Empty: the mesh remains. [time]");
+      "eight. Steps end there. The run continues on the finer mesh, to which it carries displacements, "
+      "velocities and the histories of the material. At most 5 times, and not with more than 2 'Points "
+      "through thickness'. Empty: the mesh remains. [time]");
   prm.declare_entry(
       "Initial velocity", "0 ; 0 ; 0", Patterns::Anything(),
       "Dynamic scenes: initial velocity, three muParser expressions of the position x, y, z. [length/time]");
   prm.declare_entry("Symmetry planes", "", Patterns::Anything(),
-                    "Symmetry planes, which boundary nodes on them cannot leave, separated by semicolons: 'x "
-                    "= 0', or with a normal and the distance along it, '1, 1, 0 = 3.5'. [length]");
+                    "Symmetry planes, which boundary nodes on them cannot leave, separated by semicolons. A "
+                    "plane is 'x = 0', or a normal and the distance along it, '1, 1, 0 = 3.5'. [length]");
   prm.declare_entry("Contact stabilisation", "none", Patterns::Selection("none|until contact"),
                     "Static scenes. until contact: a small viscous force acts on a body that is free at the "
                     "start, and fades once contact supports it.");

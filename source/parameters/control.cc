@@ -126,7 +126,7 @@ void Amplitude::declare(ParameterHandler &prm) {
   prm.declare_entry("File columns", "1, 2", Patterns::Anything(),
                     "Columns of that file with times and values, from 1.");
   prm.declare_entry("Interpolation", "linear", Patterns::Selection(selection(interpolations)),
-                    "linear: straight lines between the times; smooth: quintic steps with vanishing first "
+                    "linear: straight lines between the times. smooth: quintic steps with vanishing first "
                     "and second derivative at "
                     "each time.");
 }
@@ -160,18 +160,18 @@ void Amplitude::parse(Reader &reader) {
 void TimeStepping::declare(ParameterHandler &prm) {
   prm.declare_entry("End time", "1", Patterns::Double(),
                     "> 0. The run begins at time 0 and ends at this time. [time]");
-  prm.declare_entry(
-      "Scheme", name_of(Scheme::quasi_static), Patterns::Selection(selection(schemes())),
-      "quasi-static: equilibrium at the end of each step, by Newton's method; explicit: motion by central "
-      "differences, in steps as short as elements and contact require; implicit dynamics: motion by Newton's "
-      "method, in steps as long as accuracy allows. Bodies of dynamic scenes need a density.");
+  prm.declare_entry("Scheme", name_of(Scheme::quasi_static), Patterns::Selection(selection(schemes())),
+                    "Bodies of dynamic scenes need a density. quasi-static: equilibrium at the end of each "
+                    "step, by Newton's method. explicit: motion by central differences, in steps as short as "
+                    "elements and contact require. implicit dynamics: motion by Newton's method, in steps as "
+                    "long as accuracy allows. static: another name of quasi-static.");
   prm.declare_entry("Stops", "", Patterns::Anything(),
                     "Further times at which steps end, separated by commas, such as corners of motions that "
                     "no amplitude describes. [time]");
   prm.declare_entry("Step control", "automatic", Patterns::Selection(selection(step_controls)),
                     "automatic: the step length follows the iterations of the last step, and a failed step "
-                    "is cut and repeated; fixed: equal steps, shorter only where the next stop or output "
-                    "time is nearer; a failed step ends the run.");
+                    "is cut and repeated. fixed: equal steps, shorter only where the next stop or output "
+                    "time is nearer. A failed step ends the run.");
   prm.declare_entry("Initial step", "automatic", Patterns::Anything(),
                     "Length of the first step, or of all steps if they are fixed. automatic: a hundredth of "
                     "the end time, or the maximum step if that is less. [time]");
@@ -276,7 +276,7 @@ void ExplicitDynamics::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Contact resolution", "2", Patterns::Double(),
       ">= 1. Factor by which steps resolve the oscillation of a node on its contact penalty finer than "
-      "stability requires. 1: longest steps; 2: a third of the energy error of stiff impacts.");
+      "stability requires. 1: longest steps. 2: a third of the energy error of stiff impacts.");
   prm.declare_entry("Linear bulk viscosity", "0.06", Patterns::Double(),
                     "b1 >= 0. A pressure b1 rho c L times the volumetric strain rate damps oscillations; L "
                     "is the element size, c the wave speed.");
@@ -291,11 +291,11 @@ void ExplicitDynamics::declare(ParameterHandler &prm) {
                     "fails if the drift is larger for a hundred steps, or at the end.");
   prm.declare_entry(
       "Instruction set", "automatic", Patterns::Selection(selection(instruction_sets)),
-      "Instruction set of the element kernels; automatic: the fastest one of this machine. Others are "
+      "Instruction set of the element kernels. automatic: the fastest one of this machine. Others are "
       "for comparison, and for the same digits on all machines.");
   prm.declare_entry("Number type", "double", Patterns::Selection(selection(number_types)),
                     "Precision of the elements. float: twice as many elements at once, with about seven "
-                    "digits; nodes, sums and energies remain double.");
+                    "digits. Nodes, sums and energies remain double.");
 }
 
 void ExplicitDynamics::parse(Reader &reader) {
@@ -316,14 +316,15 @@ void ExplicitDynamics::parse(Reader &reader) {
 void Solver::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Contact tangent", "automatic", Patterns::Selection(selection(contact_tangents)),
-      "Tangent of the contact forces. Values other than automatic are for comparison; symmetric ones save "
+      "Tangent of the contact forces. Values other than automatic are for comparison. Symmetric ones save "
       "memory. automatic: exact with friction and between bodies, otherwise "
-      "consistent, which keeps the matrix symmetric; also consistent between bodies without friction if the "
-      "linear solver requires a symmetric matrix. exact: full derivative, with rotation of the tool's normal "
-      "and change of area. numerical: exact by central differences, eq. (43), slow. "
-      "consistent, continuum: Bittencourt & Creus (1998), eqs. (55)-(57) and (50), with constant areas. "
-      "symmetrised: upper triangle, lower triangle or mean of the consistent tangent in the contact frame, "
-      "for mu <= 0.1.");
+      "consistent, which keeps the matrix symmetric. It is consistent between bodies, too, without friction "
+      "and with a linear solver that requires a symmetric matrix. exact: full derivative, with rotation of "
+      "the tool's normal and change of area. numerical: exact by central differences, eq. (43), slow. "
+      "consistent: Bittencourt & Creus (1998), eqs. (55)-(57), with constant areas. continuum: their eq. "
+      "(50), with constant areas. symmetrised upper: upper triangle of the consistent tangent in the contact "
+      "frame, for mu <= 0.1. symmetrised lower: its lower triangle. symmetrised mean: mean of both "
+      "triangles.");
   prm.declare_entry("Material tangent", "automatic", Patterns::Selection(selection(material_tangents)),
                     "Tangent of bodies whose exact one is unsymmetric. Scenes without such bodies allow "
                     "automatic only. automatic: "
@@ -352,21 +353,21 @@ void Solver::declare(ParameterHandler &prm) {
                     "grows. none, for comparison: it shortens corrections that invert an element only.");
   prm.declare_entry("Predictor", "extrapolation", Patterns::Selection(selection(predictors)),
                     "Initial guess of the iterations of a step. extrapolation: the last increment continued, "
-                    "or in implicit dynamics the motion at constant acceleration; tangent: a linear step "
-                    "with the motion of tools and supports. The tangent always applies at the start, after a "
-                    "cut, and where tools or supports change their rate.");
+                    "or in implicit dynamics the motion at constant acceleration. tangent: a linear step "
+                    "with the motion of tools and supports. It always applies at the start, after a cut, and "
+                    "where tools or supports change their rate.");
   prm.declare_entry(
       "Linear solver", "automatic", Patterns::Selection(selection(linear_methods())),
-      "Direct solvers are MUMPS, its symmetric form, and KLU, which is for comparison: it runs on one "
+      "Direct solvers are MUMPS, its symmetric form, and KLU. The last is for comparison: it runs on one "
       "rank at a time and is slow. Iterative solvers, with multigrid, are CG, for symmetric "
       "matrices, and GMRES. automatic: direct for small scenes, if memory suffices.");
   prm.declare_entry(
       "Forcing term", "Eisenstat-Walker", Patterns::Selection(selection(forcings)),
       "The relative residual to which iterative solvers solve. Eisenstat-Walker: it falls as Newton's "
-      "method converges (Eisenstat & Walker 1996, choice 2); fixed: the linear tolerance.");
+      "method converges (Eisenstat & Walker 1996, choice 2). fixed: the linear tolerance.");
   prm.declare_entry("Linear tolerance", "1e-6", Patterns::Double(),
-                    "> 0 and < 1. Residual over right-hand side to which iterative solvers solve; with "
-                    "Eisenstat-Walker the minimum of it.");
+                    "> 0 and < 1. Residual over right-hand side to which iterative solvers solve. With "
+                    "Eisenstat-Walker it is the minimum.");
   prm.declare_entry("Maximum linear iterations", "200", Patterns::Integer(0),
                     "Maximum number of iterations of an iterative solver. If it requires more, a direct "
                     "solver replaces it for that matrix.");
@@ -403,16 +404,16 @@ void Output::declare(ParameterHandler &prm) {
                     "A folder with results of another run is moved aside first, to FOLDER.1 or the lowest "
                     "free number. It stays with --force and if the run resumes from it. Empty: "
                     "the name of the scene file without its extension.");
-  prm.declare_entry("Format", "vtu", Patterns::Selection(selection(formats)),
-                    "Format of the field output for ParaView. vtu: VTU, one file for each block and output "
-                    "time on any number of ranks; hdf5: HDF5 and XDMF, one file for each output time; none: "
-                    "no field output.");
+  prm.declare_entry(
+      "Format", "vtu", Patterns::Selection(selection(formats)),
+      "Format of the field output for ParaView. vtu: VTU, one file for each block and output time on any "
+      "number of ranks. hdf5: HDF5 and XDMF, one file for each output time. none: no field output.");
   prm.declare_entry("Step interval", "1", Patterns::Integer(0),
                     "Number of steps between field outputs, in addition to those at the start and at the "
                     "end. 0: none, or by the interval. Explicit scenes that set neither write 20 intervals.");
   prm.declare_entry(
       "Interval", "0", Patterns::Double(),
-      "Time between field outputs, whose times are multiples of it. Implicit steps end there; explicit "
+      "Time between field outputs, whose times are multiples of it. Implicit steps end there. Explicit "
       "scenes write at the end of the first step that reaches them. 0: by the step interval. Default of "
       "explicit scenes: 1/20 of the end time. [time]");
   prm.declare_entry("History interval", "0", Patterns::Double(),
@@ -431,9 +432,9 @@ void Output::declare(ParameterHandler &prm) {
                     "Write the equivalent plastic strain, if a body is plastic.");
   prm.declare_entry(
       "State fields", "", Patterns::Anything(),
-      "Fields of the materials' states to write, by name, separated by commas, such as "
-      "'inverse plastic metric'; for an unknown name the message lists those of the scene. In "
-      "the files they are state_NAME or state_NAME_COMPONENT, means over the undeformed volume of an "
+      "Fields of the materials' states to write, by name, separated by commas, such as 'inverse plastic "
+      "metric'. For an unknown name the message lists those of the scene. In the files they are state_NAME "
+      "or state_NAME_COMPONENT, means over the undeformed volume of an "
       "element. They are 0 in bodies whose law does not have them.");
   prm.declare_entry("Contact", "true", Patterns::Bool(),
                     "Write contact pressure, traction, gap, slip and status, if there is contact.");
@@ -441,11 +442,11 @@ void Output::declare(ParameterHandler &prm) {
                     "Write element fields at the nodes, too, under names that begin with 'averaged_'. A node "
                     "has the mean of the elements of its body around it, weighted by undeformed volume.");
   prm.declare_entry("Verbosity", "steps", Patterns::Selection(selection(verbosities)),
-                    "quiet: only warnings and errors; steps: a line for each step; iterations: residuals of "
+                    "quiet: only warnings and errors. steps: a line for each step. iterations: residuals of "
                     "each iteration, too.");
   prm.enter_subsection("Checkpoint");
   prm.declare_entry("Step interval", "0", Patterns::Integer(0),
-                    "Number of steps between checkpoints, from which the run can resume; another one follows "
+                    "Number of steps between checkpoints, from which the run can resume. Another one follows "
                     "at the end. 0: not by steps.");
   prm.declare_entry("Interval", "0", Patterns::Double(),
                     "Time between checkpoints: the first step that reaches a multiple of it writes one, and "

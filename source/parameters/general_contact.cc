@@ -227,9 +227,9 @@ void declare_general_contact(dealii::ParameterHandler &prm) {
   prm.enter_subsection(section);
   prm.declare_entry(
       exclusions_key, "", dealii::Patterns::Anything(),
-      "What does not touch with 'Contact = all', separated by semicolons: two names of bodies or "
-      "tools, such as 'sheet : punch'; twice the same, such as 'sheet : sheet', for "
-      "self-contact; or one name, for all contact of this body or tool.");
+      "What does not touch with 'Contact = all', separated by semicolons. Two names of bodies or tools, such "
+      "as 'sheet : punch', exclude their contact. One name twice, such as 'sheet : sheet', excludes "
+      "self-contact. One name alone excludes all contact of this body or tool.");
   prm.declare_entry(self_key, "true", dealii::Patterns::Bool(),
                     "Whether the faces of a body touch each other with 'Contact = all'.");
   ContactPair::declare_values(prm);

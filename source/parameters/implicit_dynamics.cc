@@ -24,7 +24,7 @@ void ImplicitDynamics::declare(ParameterHandler &prm) {
       prm, "Method", "generalised-alpha", time_integrator_types(),
       "Time integration method. Contact requires some damping of motions that the step does not resolve.");
   prm.declare_entry("Mass", "consistent", Patterns::Selection(selection(masses)),
-                    "Mass matrix. consistent: that of the shape functions; lumped: its row sums at the "
+                    "Mass matrix. consistent: that of the shape functions. lumped: its row sums at the "
                     "nodes, as in explicit scenes.");
   prm.declare_entry(
       "Error tolerance", "1e-3", Patterns::Double(),

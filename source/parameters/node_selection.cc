@@ -9,9 +9,9 @@
 namespace billet {
 
 const char *const node_selection_meaning =
-    "Nodes, separated by semicolons: 'at x, y, z', the node at an undeformed position; 'on line x, y, z : x, "
-    "y, z', all nodes on a segment, from its first end to its second; 'set NAME', those of a node set of the "
-    "mesh file.";
+    "Nodes, separated by semicolons. 'at x, y, z' is the node at an undeformed position. 'on line x, y, z : "
+    "x, y, z' are all nodes on a segment, from its first end to its second. 'set NAME' are those of a node "
+    "set of the mesh file.";
 
 namespace {
 

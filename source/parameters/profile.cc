@@ -374,11 +374,12 @@ void check_what_is_estimated(const SceneFile &file, const double target) {
 } // namespace
 
 void declare_presets(dealii::ParameterHandler &prm) {
-  prm.declare_entry(
-      profile_key, "balanced", dealii::Patterns::Selection("fast|balanced|accurate"),
-      "Choice between speed and accuracy: it sets the defaults of steps, solver, contact and "
-      "elements. Values in the scene take precedence; --check lists the values of the profile. "
-      "balanced: the defaults of this list, with shorter static steps where the forces depend on them.");
+  prm.declare_entry(profile_key, "balanced", dealii::Patterns::Selection("fast|balanced|accurate"),
+                    "Choice between speed and accuracy: it sets the defaults of steps, solver, contact and "
+                    "elements. Values in the scene take precedence. --check lists the values of the profile. "
+                    "fast: coarser steps and cheaper elements. accurate: finer steps and tolerances. "
+                    "balanced: the defaults of "
+                    "this list, with shorter static steps where the forces depend on them.");
   prm.declare_entry(target_key, "", dealii::Patterns::Anything(),
                     "Maximum error of the force curves, such as '1 percent', '1 %' or '0.01'. Error "
                     "estimates control steps, tolerances and augmentation during the run. The run prints the "

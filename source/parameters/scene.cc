@@ -58,8 +58,8 @@ void declare_all(ParameterHandler &prm, const Outline &outline) {
                     "Title of the scene, for the console and --check.");
   prm.declare_entry(
       "Warnings", "report", dealii::Patterns::Selection("report|errors"),
-      "errors: a run that ends with warnings exits with code 6, but completes. Old names do not "
-      "count: the warning 'old-name' leaves the exit code as it is.");
+      "Effect of warnings. report: none on the exit code. errors: a run that ends with warnings completes, "
+      "but exits with code 6. The warning 'old-name' leaves the exit code as it is.");
   prm.declare_entry(
       libraries_key, "", dealii::Patterns::Anything(),
       "Shared libraries with types of your own, such as laws, separated by ';': names of files, "

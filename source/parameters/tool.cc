@@ -194,24 +194,22 @@ const NamedValues<std::optional<FacetMethod>> &facet_methods() {
 
 void ContactPair::declare(ParameterHandler &prm) {
   prm.declare_entry("Body", "", Patterns::Anything(), "Name of the body.");
-  prm.declare_entry(
-      "Boundary ids", "", Patterns::Anything(),
-      "Boundary ids or names of the body's faces that may touch the tool or the second body, separated by "
-      "commas; or all: all exterior faces, except those on symmetry planes.");
+  prm.declare_entry("Boundary ids", "", Patterns::Anything(),
+                    "Boundary ids or names of the body's faces that may touch the tool or the second body, "
+                    "separated by commas. all: all exterior faces, except those on symmetry planes.");
   prm.declare_entry("Tool", "", Patterns::Anything(),
-                    "Name of the tool; a pair has a tool or a second body.");
+                    "Name of the tool. A pair has a tool or a second body.");
   prm.declare_entry("Second body", "", Patterns::Anything(),
                     "Name of another body, or of the same body for self-contact.");
   prm.declare_entry("Second boundary ids", "", Patterns::Anything(),
-                    "Boundary ids or names of the second body's faces, or all. Empty, where it is the same "
-                    "body: the faces of "
-                    "'Boundary ids' among themselves.");
+                    "Boundary ids or names of the second body's faces, or all. Empty: the faces of 'Boundary "
+                    "ids' among themselves, if both bodies are the same.");
   declare_values(prm);
   prm.declare_entry(
       "Surface correction", "none", Patterns::Anything(),
-      "True surface of the faces of two bodies: none; 'cylinder : x, y, z ; a, b, c', a point and the "
-      "direction of the axis, also of cones; or 'sphere : x, y, z', the centre. The nodes of both faces lie "
-      "on it, and gaps are those of the true surfaces instead of the chords of facets.");
+      "True surface of the faces of two bodies, on which the nodes of both lie. Gaps are those of the true "
+      "surfaces instead of the chords of facets. cylinder : x, y, z ; a, b, c: a point and the direction of "
+      "the axis, also of cones. sphere : x, y, z: the centre. none: no correction.");
 }
 
 void ContactPair::declare_values_of_bodies(ParameterHandler &prm) {
@@ -230,7 +228,7 @@ void ContactPair::declare_values_of_bodies(ParameterHandler &prm) {
                     "'Facets = overlap', otherwise two.");
   prm.declare_entry("Edge contact", "automatic", Patterns::Selection(selection(edge_contacts)),
                     "Pairs of bodies, nodes against facets. true: contact of edges with edges, which nodes "
-                    "against facets do not detect; automatic: true in explicit scenes.");
+                    "against facets do not detect. automatic: true in explicit scenes.");
   prm.declare_entry("Smoothing", "0.1", Patterns::Double(),
                     "> 0 and <= 0.5. Pairs of bodies, nodes against facets: part of a facet, at its edges, "
                     "over which normal and gap blend into those of its neighbour. "
@@ -241,8 +239,8 @@ void ContactPair::declare_values_of_bodies(ParameterHandler &prm) {
       "nodes approach by more. The margin affects the cost, not the result. [minimum facet size]");
   prm.declare_entry(
       "Reference stiffness", "automatic", Patterns::Selection(selection(reference_stiffnesses)),
-      "Pairs of bodies, penalty as a factor: E/h for this factor. stiffer: that of the stiffer body; series: "
-      "both in series; automatic: stiffer in explicit scenes, series in implicit ones.");
+      "Pairs of bodies, penalty as a factor: E/h for this factor. stiffer: that of the stiffer body. series: "
+      "both in series. automatic: stiffer in explicit scenes, series in implicit ones.");
 }
 
 void ContactPair::declare_values(ParameterHandler &prm) {
@@ -250,38 +248,36 @@ void ContactPair::declare_values(ParameterHandler &prm) {
   declare_selection(prm, "Friction law", default_friction_law, friction_law_types(),
                     "Shear stress at which nodes slide under a pressure p.");
   prm.declare_entry("Penalty unit", "factor", Patterns::Selection(selection(penalty_units)),
-                    "factor: penalties are multiples of E/h, Young's modulus over the facet's size; "
-                    "absolute: they are pressures "
-                    "per penetration.");
-  prm.declare_entry(
-      "Normal penalty", "10", Patterns::Double(),
-      "k_n > 0: pressure = k_n times penetration. By default, in dynamics, h is the thickness of the "
-      "elements if that is less. In statics that of a thin sheet on a tool falls where nodes chatter. See "
-      "also Penetration tolerance. "
-      "[1 or stress/length, see Penalty unit]");
+                    "factor: penalties are multiples of E/h, Young's modulus over the facet's size. "
+                    "absolute: they are pressures per penetration.");
+  prm.declare_entry("Normal penalty", "10", Patterns::Double(),
+                    "k_n > 0: pressure = k_n times penetration. By default, h is the thickness of the "
+                    "elements in dynamics, if that is less. In statics, the default of a thin sheet on a "
+                    "tool falls where nodes chatter. See also Penetration tolerance. "
+                    "[1 or stress/length, see Penalty unit]");
   prm.declare_entry("Tangential penalty", "", Patterns::Anything(),
                     "k_t > 0: stiffness while sticking. Empty: the normal penalty. [1 or stress/length]");
   prm.declare_entry(
       "Penetration tolerance", "", Patterns::Anything(),
-      ">= 0. 0: pure penalty method. > 0, in implicit scenes: augmented Lagrangian (Uzawa) in each step, "
-      "until penetration and elastic slip of all nodes are below this tolerance. If augmentation is slow or "
-      "fails, the penalty changes. automatic: in statics, until penetration takes at most 0.2 % of the force "
-      "of the pair; in dynamics, penalties rise while it takes more than 0.4 % of the deformation. Empty: 0 "
-      "with a Normal penalty, otherwise automatic. [facet sizes]");
+      ">= 0. A value > 0 is that of the augmented Lagrangian (Uzawa) in implicit scenes. Each step augments "
+      "until penetration and elastic slip of all nodes are below it. If augmentation is slow or fails, "
+      "the penalty changes. 0: pure penalty method. automatic: in statics, augmentation until penetration "
+      "takes at most 0.2 % of the force of the pair. In dynamics, penalties rise while it takes more than "
+      "0.4 % of the deformation. Empty: 0 with a Normal penalty, otherwise automatic. [facet sizes]");
   prm.declare_entry("Allowed initial penetration", "1e-3", Patterns::Double(),
                     ">= 0. Maximum initial penetration of a body into the tool or another body; above it the "
                     "scene is refused. [facet sizes]");
   prm.declare_entry(
       "Initial penetration", "error", Patterns::Selection(selection(overlaps)),
-      "Treatment of an initial penetration above the allowed one. error: the scene is refused; shift, in "
-      "implicit scenes: gaps count from the initial positions, without stress; ramp, in implicit scenes: the "
+      "Treatment of an initial penetration above the allowed one. error: the scene is refused. shift, in "
+      "implicit scenes: gaps count from the initial positions, without stress. ramp, in implicit scenes: the "
       "same at the start, but the shift vanishes until the 'Ramp time', as in a press fit.");
   prm.declare_entry("Ramp time", "0", Patterns::Double(),
                     "> 0. Time at which an initial penetration is resolved. [time]");
-  prm.declare_entry(
-      "Initial gap", "open", Patterns::Anything(),
-      "open; or 'close within D', D > 0: faces with an initial gap of up to D are in contact without stress, "
-      "and gaps count from there. For assemblies with small clearances. [length]");
+  prm.declare_entry("Initial gap", "open", Patterns::Anything(),
+                    "Treatment of initial gaps, for assemblies with small clearances. open: they remain. "
+                    "close within D, D > 0: faces with an initial gap of up to D are in contact without "
+                    "stress, and gaps count from there. [length]");
 }
 
 namespace {

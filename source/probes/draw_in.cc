@@ -30,7 +30,7 @@ Probe make_draw_in(const TypeInput &input) {
 
 ProbeType draw_in_type() {
   return {"draw-in",
-          "travel of the nodes of an edge in the plane of the sheet: along 'Direction', or towards 'Centre'",
+          "travel of the nodes of an edge in the plane of the sheet, along 'Direction' or towards 'Centre'",
           {probed_body(),
            probed_faces(),
            {"Normal", "0, 0, 1", TypeParameter::Kind::text, "Normal 'x, y, z' of the sheet's plane."},

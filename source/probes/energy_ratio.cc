@@ -29,12 +29,12 @@ ProbeType energy_ratio_type() {
       "energy ratio",
       "ratio of two energies of the whole scene",
       {{"Energy", "kinetic", TypeParameter::Kind::choice,
-        "kinetic|hourglass|contact|friction|plastic|drift: energy, work or dissipation above the line, as "
-        "in the columns of the history."},
+        "kinetic|hourglass|contact|friction|plastic|drift: Energy, work or dissipation above the line, as in "
+        "the columns of the history."},
        {"Relative to", "internal", TypeParameter::Kind::choice,
-        "internal|external|total: energy below the line. Internal: elastic and hourglass energy and plastic "
-        "work; external: work of tools, loads and supports; total: sum of all energies. The ratio is 0 "
-        "unless it is > 0."}},
+        "internal|external|total: Energy below the line. The ratio is 0 unless it is > 0. internal: elastic "
+        "and hourglass energy and plastic work. external: work of tools, loads and supports. total: sum of "
+        "all energies."}},
       make_energy_ratio};
 }
 

@@ -238,10 +238,10 @@ TypeParameter probed_point() {
 }
 
 TypeParameter probed_place() {
-  return {
-      "Place", "material", TypeParameter::Kind::choice,
-      "material|nearest node|space: Points of the undeformed body that move with it. Or the nodes nearest "
-      "to them. Or points that stay in space and read what is there; 'nan' if nothing is."};
+  return {"Place", "material", TypeParameter::Kind::choice,
+          "material|nearest node|space: Points that the probe reads. material: points of the undeformed "
+          "body, which move with it. nearest node: the nodes nearest to them. space: points that stay in "
+          "space and read what is there, 'nan' if nothing is."};
 }
 
 TypeParameter probed_quantities() {

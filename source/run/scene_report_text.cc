@@ -103,19 +103,18 @@ void print(const PairReport &pair, const double size, std::ostream &stream) {
            << number(gap.mean, size) << " over " << gap.n_facing << " of " << count(gap.n_nodes, "node");
   else
     stream << "none of " << count(gap.n_nodes, "node") << " is in front of the other surface";
+  stream << "\n" << label("");
   const char *motions = "by the prescribed motions";
   if (pair.meeting && pair.meeting->time > 0.)
-    stream << "; "
-           << (pair.meeting->n_nodes == 1 ? "1 node meets" : count(pair.meeting->n_nodes, "node") + " meet")
+    stream << (pair.meeting->n_nodes == 1 ? "1 node meets" : count(pair.meeting->n_nodes, "node") + " meet")
            << " at time " << number(pair.meeting->time) << " " << motions << ", first "
            << vector(pair.meeting->first, size);
   else if (pair.meeting)
-    stream << "; "
-           << (pair.meeting->n_nodes == 1 ? "1 node touches"
+    stream << (pair.meeting->n_nodes == 1 ? "1 node touches"
                                           : count(pair.meeting->n_nodes, "node") + " touch")
            << " at the start, first " << vector(pair.meeting->first, size);
   else
-    stream << "; never meets " << motions << ", which leave a body at rest that others push";
+    stream << "never meets " << motions << ", which leave a body at rest that others push";
   stream << (pair.depends_on_forces ? "; loads, driven tools or deformation may change that\n" : "\n");
   if (pair.is_sheet)
     stream << label("Penalty") << pair.name << ": falls to " << sheet_penalty
@@ -138,11 +137,14 @@ void print(const RunReport &run, const double size, std::ostream &stream) {
   const StableStepReport &stable = *run.stable_step;
   stream << label("Stable step") << number(stable.of_elements) << " of the elements, set by that of '"
          << stable.body << "' at " << vector(stable.element, size) << " with its least edge "
-         << number(stable.min_edge) << "; first steps " << number(stable.step);
+         << number(stable.min_edge) << "\n"
+         << label("") << "first steps " << number(stable.step);
   if (stable.shortest < stable.step)
     stream << ", by contact " << number(stable.shortest) << " from time " << number(stable.shortest_from);
   if (stable.is_short_by_contact)
-    stream << "; 'Profile = fast', 'Contact resolution = 1' or a lower 'Normal penalty' make steps longer";
+    stream << "\n"
+           << label("")
+           << "'Profile = fast', 'Contact resolution = 1' or a lower 'Normal penalty' make steps longer";
   stream << "\n";
 }
 

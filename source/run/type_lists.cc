@@ -150,12 +150,11 @@ const std::vector<TypeList> &type_lists() {
   return lists;
 }
 
-/// Prints a text in lines of at most 100 columns, indented.
-void print_indented(std::ostream &stream, const std::string &text, const std::string &first,
-                    const std::size_t indent) {
+/// Prints a text in lines of at most 100 columns. The first line begins with `line`, the others
+/// with blanks.
+void print_wrapped(std::ostream &stream, const std::string &text, std::string line,
+                   const std::size_t indent) {
   constexpr std::size_t width = 100;
-  std::string line = first;
-  line.resize(std::max(line.size() + (first.empty() ? 0 : 2), indent), ' ');
   std::istringstream words(text);
   bool is_first = true;
   for (std::string word; words >> word; is_first = false) {
@@ -169,11 +168,25 @@ void print_indented(std::ostream &stream, const std::string &text, const std::st
   stream << line << "\n";
 }
 
+/// Prints a text behind `first`, with the same indent in all lines. If `first` leaves it too little
+/// space, it has lines of its own.
+void print_indented(std::ostream &stream, const std::string &text, std::string first,
+                    const std::size_t indent) {
+  constexpr std::size_t max_width = 70;
+  if (first.size() > max_width) {
+    const std::size_t begin = first.find_first_not_of(' ');
+    print_wrapped(stream, first.substr(begin), std::string(begin, ' '), begin + 2);
+    first.clear();
+  }
+  first.resize(std::max(first.size() + (first.empty() ? 0 : 2), indent), ' ');
+  print_wrapped(stream, text, first, indent);
+}
+
 void print(std::ostream &stream, const Named &entry) {
   stream << entry.name << "\n";
   print_indented(stream, entry.meaning, "", 4);
   if (!entry.how.empty())
-    stream << "    " << entry.how << "\n";
+    print_wrapped(stream, entry.how, "    ", 8);
   std::size_t width = 0;
   for (const auto &parameter : entry.parameters)
     width = std::max(width, parameter.key.size() + 3 + parameter.default_value.size());
@@ -235,13 +248,15 @@ void print_faces(std::ostream &stream, const std::vector<std::string> &files, co
         continue;
       }
       const auto rounded = [](const double x) { return std::abs(x) < 1e-6 ? 0. : x; };
-      stream << std::setw(6) << i + 1 << "  " << faces[i].kind;
+      std::ostringstream number, line;
+      number << std::setw(6) << i + 1 << "  ";
+      line << faces[i].kind;
       for (unsigned int c = 0; c < 3; ++c)
-        stream << ", "
-               << "xyz"[c] << " " << rounded(low[c]) << " to " << rounded(high[c]);
+        line << ", "
+             << "xyz"[c] << " " << rounded(low[c]) << " to " << rounded(high[c]);
       for (const std::size_t neighbour : faces[i].neighbours)
-        stream << (neighbour == faces[i].neighbours.front() ? "; beside " : ", ") << neighbour;
-      stream << "\n";
+        line << (neighbour == faces[i].neighbours.front() ? "; beside " : ", ") << neighbour;
+      print_wrapped(stream, line.str(), number.str(), 10);
     }
   }
   if (as_json)

@@ -667,6 +667,22 @@ std::string describe_refinements(const parameters::Body &body, std::size_t n_ele
   return text.str();
 }
 
+/// Prints names behind a label, in lines of at most 100 columns. Prints nothing without names.
+void print_names(const std::string &label, const std::vector<std::string> &names, std::ostream &stream) {
+  constexpr std::size_t max_columns = 100;
+  std::string line = label;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string name = names[i] + (i + 1 < names.size() ? "," : "");
+    if (i > 0 && line.size() + 1 + name.size() > max_columns) {
+      stream << line << "\n";
+      line = std::string(label.size() - 1, ' ');
+    }
+    line += (i > 0 ? " " : "") + name;
+  }
+  if (!names.empty())
+    stream << line << "\n";
+}
+
 } // namespace
 
 void Scene::describe(std::ostream &stream) const {
@@ -710,10 +726,10 @@ void Scene::describe(std::ostream &stream) const {
       text << ", automatic augmentation";
     else if (pair.is_augmented())
       text << ", augmented to " << *pair.penetration_tolerance << " facet sizes";
-    if (pair.overlap.is_allowed)
-      text << ", initial penetration "
-           << (pair.overlap.ramp_time > 0. ? "resolved until time " + std::to_string(pair.overlap.ramp_time)
-                                           : std::string("kept"));
+    if (pair.overlap.is_allowed && pair.overlap.ramp_time > 0.)
+      text << ", initial penetration resolved until time " << pair.overlap.ramp_time;
+    else if (pair.overlap.is_allowed)
+      text << ", initial penetration kept";
     if (pair.overlap.closed_gap > 0.)
       text << ", initial gaps up to " << pair.overlap.closed_gap << " closed";
     text << "\n";
@@ -740,15 +756,14 @@ void Scene::describe(std::ostream &stream) const {
                                                                                 : ", fixed steps of ")
            << stepping.initial_step << "\n";
   stream << "Elements       " << n_elements << " in all, " << parameters_.scheme().description << "\n";
-  std::string unused;
+  std::vector<std::string> unused;
   for (const CapabilityUse &use : capability_uses())
     if (use.is_used)
       stream << std::left << std::setw(15) << use.name << "yes" << (use.how.empty() ? "" : ": ") << use.how
              << "\n";
     else
-      unused += (unused.empty() ? "" : ", ") + use.name;
-  if (!unused.empty())
-    stream << "Not modelled   " << unused << "\n";
+      unused.push_back(use.name);
+  print_names("Not modelled   ", unused, stream);
   stream << "Output         " << parameters_.output.folder.value << "\n";
 }
 

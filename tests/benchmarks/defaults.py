@@ -179,14 +179,14 @@ def measure(path: Path, parameters: str) -> dict[str, str]:
 
 
 def verdict(row: dict[str, str]) -> str:
-    """Judges a row: within the limit, told by a warning, or missed."""
+    """Judges a row: within the limit, warned of, or missed."""
     if row["finished"] != "True":
         return "stops: " + row["stopped"]
     if row["reference_finished"] != "True":
         return "no reference"
     if float(row["error"]) <= LIMIT:
         return "within"
-    return "told" if row["warnings"] else "missed"
+    return "warned" if row["warnings"] else "missed"
 
 
 def table_row(row: dict[str, str]) -> list[object]:
@@ -228,8 +228,8 @@ for path in paths:
         continue
     print(*table_row(rows[-1]), sep=" | ", flush=True)
 verdicts = {row["scene"]: verdict(row) for row in rows}
-within, told = ([scene for scene, of in verdicts.items() if of == what] for what in ("within", "told"))
-missed = [scene for scene in verdicts if scene not in within + told]
+within, warned = ([scene for scene, of in verdicts.items() if of == what] for what in ("within", "warned"))
+missed = [scene for scene in verdicts if scene not in within + warned]
 
 publish(
     "defaults",
@@ -256,8 +256,8 @@ publish(
         " a coarser mesh beside the scene's own. *same mesh* means a uniform stress, which any mesh has."
         " *program* is the start of the program's hash. Each run is done once."
     ),
-    f"{len(within)} of {len(rows)} are within {100 * LIMIT:g} %. Of the others {len(told)} warn"
-    + (f" ({', '.join(told)})." if told else ".")
+    f"{len(within)} of {len(rows)} are within {100 * LIMIT:g} %. Of the others {len(warned)} warn"
+    + (f" ({', '.join(warned)})." if warned else ".")
     + (f" {len(missed)} do not warn ({', '.join(missed)})." if missed else ""),
     table(
         [

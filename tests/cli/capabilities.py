@@ -187,8 +187,8 @@ def require_costs(case: Case, folder: str, command: list[str]) -> None:
     checked = run(program.path, "--check", "scene.prm")
     require(checked.code == 0, f"--check ends with {checked.code}: {checked.errors}")
     required = dict(re.findall(r"^([A-Z][\w -]*?) +(yes)\b", checked.output, re.MULTILINE))
-    for names in re.findall(r"^Not modelled +(.*)", checked.output, re.MULTILINE):
-        required.update((name, "no") for name in names.split(", "))
+    for names in re.findall(r"^Not modelled +(.*(?:\n .*)*)", checked.output, re.MULTILINE):
+        required.update((name, "no") for name in re.split(r",\s+", names))
     ended = run(*command)
     may_miss = ended.code == 7 and "Target error" in case.edits
     require(ended.code == 0 or may_miss, f"it ends with {ended.code}: {ended.errors}")

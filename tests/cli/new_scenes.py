@@ -4,7 +4,8 @@
 
 Runs in an empty current folder. Each template of prm/templates must be what --new writes, pass --check, and
 run to its end; those that take long run over a part of their time. --list must name all registered types.
-Parts of scenes in the user guide must set parameters of the program, and whole ones run.
+Parts of scenes in the user guide must set parameters of the program, and whole ones run. So must the examples
+of rare settings, from which the parameter reference takes lines.
 """
 
 from __future__ import annotations
@@ -140,6 +141,8 @@ def _() -> None:
         require(entries, f"{name} is empty")
         for entry in entries:
             says(rf"^{re.escape(entry['name'])}$", ended.output)
+        wide = [line for line in ended.output.splitlines() if len(line) > 100]
+        equal(f"wide lines of {name}", wide, [])
 
 
 # How a scene of block.prm names an entry of each list, KEY = NAME.
@@ -242,6 +245,23 @@ def _() -> None:
         unknown = [name for name in re.findall(r"^ *set (?:.*/)?(.*?) *=", part, re.M) if name not in names]
         equal(f"unknown on {page}", unknown, [])
         equal(f"subsections on {page}", len(re.findall(r"^ *subsection ", part, re.M)), part.count("end\n"))
+
+
+PARTS_OF_EXAMPLES = ("bar.prm", "pulled.prm", "slid.prm")
+
+
+@check("the examples of rare settings run without warnings")
+def _() -> None:
+    files = sorted((HERE.parents[1] / "examples/settings").glob("*.prm"))
+    scenes = [file for file in files if file.name not in PARTS_OF_EXAMPLES]
+    require(len(scenes) >= 9, f"only {len(scenes)} scenes")
+    for scene in scenes:
+        checked = run(program, "--check", str(scene))
+        equal(f"{scene.name}: exit code of --check", checked.code, 0)
+        equal(f"{scene.name}: messages of --check", checked.errors, "")
+        ended = run(program, "--output", scene.stem, str(scene))
+        equal(f"{scene.name}: exit code", ended.code, 0)
+        says("without warnings", ended.output)
 
 
 @check("whole scenes of the user guide run, the first one as in the README")

@@ -8,6 +8,7 @@ import io
 import os
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 from contextlib import redirect_stderr, redirect_stdout
@@ -203,6 +204,20 @@ class Command(unittest.TestCase):
             self.assertIn(part, str(caught.exception))
         self.assertEqual(command(str(self.file))[0], 2)
         self.assertIn("--poisson", command(str(self.file), "--poisson", "0.5")[2])
+
+    def test_help_without_packages(self) -> None:
+        program = Path(__file__).resolve().parents[2] / "tools/billet-fit"
+        cases: tuple[tuple[list[str], int, str], ...] = (
+            (["--help"], 0, "Fits constants of laws of rubber"),
+            ([], 2, "the following arguments are required: data"),
+            (["data.csv", "--poisson", "0.5"], 2, "--poisson: a number > -1"),
+        )
+        for arguments, code, part in cases:
+            said = [sys.executable, "-S", "-B", str(program), *arguments]  # -S: no packages
+            done = subprocess.run(said, capture_output=True, text=True)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(part, done.stdout + done.stderr)
+            self.assertNotIn("It wants numpy", done.stderr)
 
 
 if __name__ == "__main__":

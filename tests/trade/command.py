@@ -644,6 +644,25 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn("another billet-trade works in the folder 'busy'", said)
 
+    def test_help_without_packages(self) -> None:
+        def bare(*arguments: str) -> tuple[int, str]:
+            command = [sys.executable, "-S", "-B", str(TRADE), *arguments]  # -S: no packages
+            done = subprocess.run(command, capture_output=True, text=True)
+            return done.returncode, done.stdout + done.stderr
+
+        code, said = bare("--help")
+        self.assertEqual(code, 0, said)
+        self.assertIn("Shows what accuracy costs", said)
+        for arguments, part in (
+            ((), "the following arguments are required: scene"),
+            (("bar.prm", "--ranks", "0"), "--ranks is 0"),
+            (("bar.prm", "--line", "1, 2 to 3"), "--line is '1, 2 to 3'; allowed is"),
+        ):
+            code, said = bare(*arguments)
+            self.assertEqual(code, 2, said)
+            self.assertIn(part, said)
+            self.assertNotIn("It wants numpy", said)
+
     def test_list(self) -> None:
         done = self.trade("--list")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -54,7 +54,7 @@ void declare_selection(dealii::ParameterHandler &prm, const std::string &key, co
                        const Table &table, const std::string &meaning) {
   std::string text = meaning;
   for (const auto &type : table)
-    text += (&type == &*table.begin() ? " " : "; ") + type.name + ": " + type.meaning;
+    text += (&type == &*table.begin() ? " " : ". ") + type.name + ": " + type.meaning;
   prm.declare_entry(key, default_name, dealii::Patterns::Selection(table.names()), text + ".");
   join_parameters(table).declare(prm);
 }

@@ -10,15 +10,13 @@ from typing import Sequence
 from .. import UserError
 from .data import read_data
 from .fitting import fit_all
-from .options import LAWS, make_parser
+from .options import LAWS, parse
 from .picture import draw
 
 
 def main(arguments: Sequence[str]) -> int:
     """Fits, prints and draws. Returns the exit code."""
-    options = make_parser().parse_args(arguments)
-    if not -1 < options.poisson <= 0.49999:
-        raise UserError("--poisson: a number > -1 and <= 0.49999")
+    options = parse(arguments)
     file = Path(options.data)
     data = read_data(file)
     fits = fit_all(data, options.law or LAWS, options.terms, not options.absolute)

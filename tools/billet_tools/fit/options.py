@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The command line of billet-fit."""
+"""The command line of billet-fit. Needs Python alone, so that --help works everywhere."""
 
 from __future__ import annotations
 
 import argparse
+import sys
+from typing import Sequence
+
+from .. import UserError
 
 LAWS = ("Mooney-Rivlin", "Yeoh", "Ogden", "Arruda-Boyce")
 
@@ -32,3 +36,20 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--picture", metavar="FILE", help="picture of points and curves (DATA.png)")
     return parser
+
+
+def parse(arguments: Sequence[str]) -> argparse.Namespace:
+    options = make_parser().parse_args(arguments)
+    if not -1 < options.poisson <= 0.49999:
+        raise UserError("--poisson: a number > -1 and <= 0.49999")
+    return options
+
+
+def check_usage(arguments: Sequence[str]) -> int:
+    """Returns the exit code of a wrong command line, which it prints; else 0. Ends the program by --help."""
+    try:
+        parse(arguments)
+    except UserError as error:
+        print(f"billet-fit: {error}", file=sys.stderr)
+        return error.code
+    return 0

@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What is asked for on the command line."""
+"""What is asked for on the command line. Needs Python alone, so that --help works everywhere."""
 
 from __future__ import annotations
 
 import argparse
+import re
+import sys
 from typing import Sequence
 
 from .. import UserError
 from . import parameters
 from .budget import Budget
-from .outputs import OUTPUTS, Profile
-from .reference import GIVEN
 
 Options = argparse.Namespace
+
+OUTPUTS = ("force", "energy", "strain", "shape", "rebound")
+GIVEN = "given"  # as --reference-mesh instead of factors: errors are those of all but the mesh
 
 HELP = """Shows what accuracy costs in a scene of billet, in a table, a CSV file and a picture of error
 over cost. It changes one parameter after the other, and measures each run against a converged
@@ -229,10 +232,34 @@ def parse(arguments: Sequence[str]) -> Options:
     if "strain" in weights and not options.line:
         raise UserError("--outputs: the strain profile wants a --line 'x, y, z to x, y, z'")
     if options.line:
-        Profile(options.line, options.profile)  # says what is wrong with it
+        read_line(options.line)  # says what is wrong with it
     if not options.time_limit > 0:
         raise UserError(f"--time-limit is {options.time_limit:g}; allowed are seconds > 0")
     return options
+
+
+def check_usage(arguments: Sequence[str]) -> int:
+    """Returns the exit code of a wrong command line, which it prints; else 0. Ends the program by --help."""
+    try:
+        parse(arguments)
+    except UserError as error:
+        print(f"billet-trade: {error}", file=sys.stderr)
+        return error.code
+    except parameters.CannotTurn as why:
+        print(f"billet-trade: {why}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def read_line(text: str) -> tuple[list[float], list[float]]:
+    """Returns both ends of a line."""
+    numbers = re.findall(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", text)
+    if len(numbers) != 6 or " to " not in text:
+        raise UserError(f"--line is '{text}'; allowed is 'x, y, z to x, y, z'")
+    begin, end = [float(x) for x in numbers[:3]], [float(x) for x in numbers[3:]]
+    if begin == end:
+        raise UserError(f"--line is '{text}'; allowed are two different points")
+    return begin, end
 
 
 def read_error(text: str | None) -> float | None:

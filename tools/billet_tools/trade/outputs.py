@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-import re
 from abc import ABC, abstractmethod
 from typing import Sequence
 
@@ -14,10 +13,8 @@ from .. import UserError
 from ..output import Array
 from ..scene import Scene
 from . import measure
+from .options import read_line
 from .results import Result
-
-
-OUTPUTS = ("force", "energy", "strain", "shape", "rebound")
 
 
 class Output(ABC):
@@ -192,12 +189,7 @@ class Profile(Output):
     SEGMENTS = 40
 
     def __init__(self, line: str, kind: str) -> None:
-        numbers = re.findall(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", line)
-        if len(numbers) != 6 or " to " not in line:
-            raise UserError(f"--line is '{line}'; allowed is 'x, y, z to x, y, z'")
-        ends = numpy.array(numbers, dtype=float).reshape(2, 3)
-        if not numpy.linalg.norm(ends[1] - ends[0]) > 0:
-            raise UserError(f"--line is '{line}'; allowed are two different points")
+        ends = numpy.array(read_line(line), dtype=float)
         self.kind = kind
         parameters = numpy.linspace(0.0, 1.0, self.SEGMENTS + 1)
         self.places = ends[0] + parameters[:, None] * (ends[1] - ends[0])

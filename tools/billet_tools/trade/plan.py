@@ -14,8 +14,7 @@ from .. import UserError
 from ..scene import Changes, Scene
 from . import parameters, results
 from .parameters import Parameter
-from .options import Options, read_settings
-from .reference import GIVEN
+from .options import GIVEN, Options, read_settings
 from .report import Point
 from .run import Runner
 

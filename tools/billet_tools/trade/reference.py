@@ -17,6 +17,7 @@ from .. import UserError
 from ..output import Array
 from ..scene import Changes, Scene
 from . import parameters, measure
+from .options import GIVEN
 from .outputs import Output
 from .results import Result
 
@@ -39,7 +40,6 @@ Ended = tuple[Axis, int, list[tuple[str, Result]]]  # an axis, the first of its 
 
 # Elements up to which the finest of the reference's own meshes is four times as fine as the scene's: some
 # minutes' work.
-GIVEN = "given"  # instead of factors: errors are those of all but the mesh
 AUGMENTED = 0.01  # facet sizes, the coarsest level where bodies touch in implicit scenes
 AFFORDABLE = {True: 150_000, False: 10_000}
 

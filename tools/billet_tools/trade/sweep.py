@@ -15,7 +15,7 @@ from ..program import Stopped
 from ..scene import Scene
 from ..text import items, number, percent, table, wrapped, written_by
 from . import parameters, picture, report
-from .options import Options, read_outputs, read_settings
+from .options import GIVEN, Options, read_outputs, read_settings
 from .outputs import (
     Energy,
     Force,
@@ -29,7 +29,7 @@ from .outputs import (
 )
 from .paste import HOW
 from .plan import Candidates
-from .reference import GIVEN, Plan, Reference
+from .reference import Plan, Reference
 from .report import Forces, Point, Sweep
 from .results import Result
 from .run import Progress, Runner, Work, clock
