@@ -175,7 +175,9 @@ bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std:
   if (std::all_of(factors.begin(), factors.end(), [](const double factor) { return factor == 1.; }))
     return false;
   const double time = problem_.step().time;
-  problem_.evaluate_start();
+  const bool keeps_tractions = *std::min_element(wanted.begin(), wanted.end()) < enough_penalty;
+  if (keeps_tractions)
+    problem_.evaluate_start();
   const std::vector<double> before = contacts.stored_energies();
   for (std::size_t i = 0; i < factors.size(); ++i) {
     if (factors[i] == 1.)
@@ -195,6 +197,8 @@ bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std:
                            .value("penalty [E/h]", penalty * factors[i]));
   }
   problem_.scales().spring_round_off = contacts.find_spring_round_off();
+  if (!keeps_tractions)
+    return true;
   problem_.evaluate_start();
   const std::vector<double> after = contacts.stored_energies();
   for (std::size_t i = 0; i < factors.size(); ++i)
