@@ -117,8 +117,8 @@ void print(const PairReport &pair, const double size, std::ostream &stream) {
     stream << "never meets " << motions << ", which leave a body at rest that others push";
   stream << (pair.depends_on_forces ? "; loads, driven tools or deformation may change that\n" : "\n");
   if (pair.is_sheet)
-    stream << label("Penalty") << pair.name << ": falls to " << sheet_penalty
-           << " E/h if nodes of the thin sheet open and close in turn\n";
+    stream << label("Penalty") << pair.name << ": may fall to " << sheet_penalty
+           << " E/h, since the body is a thin sheet\n";
 }
 
 void print(const RunReport &run, const double size, std::ostream &stream) {

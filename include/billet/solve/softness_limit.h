@@ -24,6 +24,8 @@ public:
 
   /// Changes what limits each pair, as a penalty that has changed demands.
   void set_rules(const std::vector<Rule> &rules);
+  /// Forgets what augmentations have shown of a pair, whose penalty has become another one.
+  void forget(std::size_t pair) { pairs_[pair].normal.counts = pairs_[pair].tangential.counts = 1.; }
   /// Begins after Newton's method has converged in a step, before any augmentation.
   void begin();
   /// Returns, for each pair, the missing part of its forces over the allowed part; 0 for pairs

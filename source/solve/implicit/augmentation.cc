@@ -203,6 +203,7 @@ bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std:
   const std::vector<double> after = contacts.stored_energies();
   for (std::size_t i = 0; i < factors.size(); ++i)
     if (factors[i] < 1. && wanted[i] < enough_penalty) {
+      softness_.forget(i);
       books.add(i, after[i] - before[i]);
       problem_.state().energies.external += after[i] - before[i];
     }
@@ -219,6 +220,8 @@ bool Augmentation::soften_contacts(const NewtonReport &failed, SpringBooks &book
 }
 
 void Augmentation::soften_sheets(SpringBooks &books, DiagnosticList &messages) {
+  if (restless_steps_.empty())
+    soften_stacks(books, messages);
   std::vector<double> wanted(restless_steps_.size(), std::numeric_limits<double>::max());
   bool is_wanted = false;
   for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -229,6 +232,25 @@ void Augmentation::soften_sheets(SpringBooks &books, DiagnosticList &messages) {
     }
   if (is_wanted)
     lower_penalties(wanted, "nodes of a thin sheet open and close in turn", books, messages);
+}
+
+void Augmentation::soften_stacks(SpringBooks &books, DiagnosticList &messages) {
+  restless_steps_.assign(parts_.contacts().size(), 0.);
+  const auto &pairs = parts_.scene().pairs();
+  const auto &of_bodies = parts_.scene().body_pairs();
+  std::vector<double> wanted(restless_steps_.size(), std::numeric_limits<double>::max());
+  bool is_wanted = false;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (parts_.contacts()[i].penalties().is_of_sheet() &&
+        std::any_of(of_bodies.begin(), of_bodies.end(), [&](const BodyPair &pair) {
+          return !pair.is_self_contact &&
+                 (pair.bodies[0] == pairs[i].body || pair.bodies[1] == pairs[i].body);
+        })) {
+      wanted[i] = sheet_penalty;
+      is_wanted = true;
+    }
+  if (is_wanted)
+    lower_penalties(wanted, "the body is a thin sheet that other bodies may touch", books, messages);
 }
 
 void Augmentation::commit() {

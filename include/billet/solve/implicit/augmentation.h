@@ -68,6 +68,9 @@ private:
   /// the energy of the lower penalty. Returns whether there is any. Collective.
   bool lower_penalties(const std::vector<double> &wanted, const std::string &reason, SpringBooks &books,
                        DiagnosticList &messages);
+  /// Reduces the penalties of sheets that pairs of bodies have, too, before the first step. Springs
+  /// between bodies are soft beside the compression of a sheet. Collective.
+  void soften_stacks(SpringBooks &books, DiagnosticList &messages);
   /// Returns the rules by which contacts limit their softness now.
   static std::vector<SoftnessLimit::Rule> softness_rules(const ContactSet &contacts);
   /// Returns the springs of each contact; empty if no pair limits softness. Collective.
