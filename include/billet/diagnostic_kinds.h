@@ -259,9 +259,9 @@ inline const DiagnosticKind penalty_too_high("penalty-too-high", Severity::warni
 
 inline const DiagnosticKind penalty_reduced(
     "penalty-reduced", Severity::note,
-    "Newton's method failed, so a penalty is reduced towards 10 E/h; or nodes of a thin sheet open and "
-    "close in turn, and its penalty falls to 0.04 E/h. Augmentation enforces the constraint. The result "
-    "is that of the higher penalty.",
+    "Newton's method failed, so a penalty is reduced towards 10 E/h. That of a thin sheet falls to 0.04 "
+    "E/h, also where nodes open and close in turn. Augmentation enforces the constraint. The result is "
+    "that of the higher penalty.",
     "If the lower penalty helped, set 'Normal penalty' to it and 'Penetration tolerance' to 1e-3, which "
     "saves the failed attempts");
 

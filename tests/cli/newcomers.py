@@ -233,7 +233,7 @@ def _() -> None:
         ),
         (
             "Bodies / block: Initial velocity = 0 ; 0 ; 60e3",
-            "^Gap +block on plate: .*never meets by the prescribed",
+            r"^Gap +block on plate: .*\n +never meets by the prescribed",
         ),
         (
             "General contact: Friction = 0.15",

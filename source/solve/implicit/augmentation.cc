@@ -170,8 +170,11 @@ bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std:
   const std::vector<double> room = contacts.stiffening_left();
   std::vector<double> factors(room.size(), 1.);
   for (std::size_t i = 0; i < room.size(); ++i)
-    if (contacts[i].settings().is_augmented())
-      factors[i] = std::min(1., whole_octaves((1. + round_off) * wanted[i] * room[i] / enough_penalty));
+    if (contacts[i].settings().is_augmented()) {
+      const double left =
+          wanted[i] < enough_penalty ? (1. + round_off) * wanted[i] / enough_penalty * room[i] : room[i];
+      factors[i] = wanted[i] > enough_penalty ? 1. : std::min(1., whole_octaves(left));
+    }
   if (std::all_of(factors.begin(), factors.end(), [](const double factor) { return factor == 1.; }))
     return false;
   const double time = problem_.step().time;
