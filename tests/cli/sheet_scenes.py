@@ -184,7 +184,9 @@ def _() -> None:
 @check("--check tells that penalties of pairs with tools may fall, and no others")
 def _() -> None:
     told = re.findall(
-        r"^Penalty +(.*): may fall to 0\.0390625 E/h", run(program, "--check", THREE_SHEETS).output, re.MULTILINE
+        r"^Penalty +(.*): may fall to 0\.0390625 E/h",
+        run(program, "--check", THREE_SHEETS).output,
+        re.MULTILINE,
     )
     equal("pairs", told, [f"s{sheet} on {tool}" for sheet in range(3) for tool in ("floor", "lid")])
     given = run(program, "--check", THREE_SHEETS, "--set", "General contact/Normal penalty=1").output

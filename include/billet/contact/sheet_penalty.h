@@ -6,7 +6,7 @@
 
 namespace billet {
 
-/// Penalty of sheets on tools in statics once nodes chatter [E/h], (T13) of
+/// Penalty for sheets on tools in statics once nodes chatter [E/h], (T13) of
 /// doc/theory/contact_tools.md.
 constexpr double sheet_penalty = 10. / 256.;
 
