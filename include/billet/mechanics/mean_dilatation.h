@@ -59,8 +59,7 @@ void add_internal_force(const ReferenceElement &element, const MeanDilatationKin
 
 /// Overwrites `matrix` with ∂f/∂u [force/length]. With θ = (div̄ − tr L)/3, L = ∇u in the current
 /// configuration and d̄ = sym L + θ I (bars over the virtual field likewise),
-///   K = Σ_q w { δd̄ : c : d̄ + ∇N_a·τ·∇N_b I + 2 θ τ:δd + 2 δθ τ:d + 2 θ δθ tr τ
-///               + tr τ/3 tr(δL L) }
+///   K = Σ_q w {δd̄:c:d̄ + ∇N_a·τ·∇N_b I + 2 θ τ:δd + 2 δθ τ:d + 2 θ δθ tr τ + tr τ/3 tr(δL L)}
 ///       + Π { (1/v) Σ_q J w [tr δL tr L − tr(δL L)] − δdiv̄ div̄ }.
 /// The moduli must be symmetric, and so is the matrix; only part of unsymmetric moduli would be
 /// used.
