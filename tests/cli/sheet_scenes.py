@@ -159,7 +159,7 @@ def _() -> None:
 
 @check("a sheet that is stretched keeps its penalty, and the force that low penalties reduce")
 def _() -> None:
-    options = {
+    options: dict[str, object] = {
         "Bodies/blank/Mesh/Refinements": 2,
         "Time stepping/End time": 0.13,
         "Time stepping/Maximum step": 0.005,
@@ -167,18 +167,12 @@ def _() -> None:
     for pair in ("blank on punch", "blank on die"):
         options |= {f"Contact pairs/{pair}/{key}": "" for key in ("Penalty unit", "Normal penalty")}
     scene = str(SHIPPED / "wagoner_punch_mu_0.prm")
-    found, stiff = (
-        run_variant(scene, folder, {**options, **more})[-1]["punch.force_z"]
-        for folder, more in (
-            ("stretched", {}),
-            (
-                "stretched_stiff",
-                {f"Contact pairs/blank on {t}/Penetration tolerance": 1e-5 for t in ("punch", "die")},
-            ),
-        )
-    )
-    # With 0.04 E/h from the start it is 1.6 % less.
-    near("force of the punch", found, stiff, 4e-3)
+    found = run_variant(scene, "stretched", options)[-1]["punch.force_z"]
+    for tool in ("punch", "die"):
+        options[f"Contact pairs/blank on {tool}/Penetration tolerance"] = 1e-5
+    stiff = run_variant(scene, "stretched_stiff", options)[-1]["punch.force_z"]
+    # With 0.03 E/h from the start it is 0.8 % less.
+    near("force of the punch", found, stiff, 1e-3)
 
 
 @check("--check tells that penalties of pairs with tools may fall, and no others")
