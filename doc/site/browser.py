@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: browser.py FOLDER
 
-Opens the pages of the site in FOLDER from the file system, at the width of a phone, in chromium without a
-window. Formulas must be set and pictures shown, and nothing may be wider than its page. Without chromium it
+Opens the pages of the site in FOLDER from the file system, at the widths of a phone and of a desktop, in
+chromium without a window. Formulas must be set and pictures shown, and nothing may be wider than its page. Without chromium it
 checks nothing.
 """
 
@@ -17,7 +17,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-WIDTH = 390  # pixels, of a common phone
+WIDTHS = (390, 1280)  # pixels, of a common phone and a small desktop
 SECONDS = 170
 # Opens one page after the other in a frame. What scrolls within the page may be wider than it, and what furo
 # sets beside the text, such as links of headings, by a few pixels.
@@ -58,10 +58,10 @@ onload = async () => {
 </script>"""
 
 
-def faults_of(folder: Path, pages: list[str], chromium: str) -> list[str]:
-    """Returns what is wrong on pages."""
+def faults_of(folder: Path, pages: list[str], width: int, chromium: str) -> list[str]:
+    """Returns what is wrong on pages at a width [pixels]."""
     text = (
-        LOOK.replace("WIDTH", str(WIDTH))
+        LOOK.replace("WIDTH", str(width))
         .replace("FOLDER", folder.as_uri())
         .replace("PAGES", json.dumps(pages))
     )
@@ -99,9 +99,12 @@ def main() -> int:
         return 0
     paths = (path.relative_to(folder) for path in sorted(folder.rglob("*.html")))
     pages = [path.as_posix() for path in paths if path.parts[:2] != ("reference", "cpp")]
-    faults = faults_of(folder, pages, chromium)
-    print("\n".join([*faults, f"{len(pages)} pages at {WIDTH} pixels, {len(faults)} faults"]))
-    return 1 if faults else 0
+    n_faults = 0
+    for width in WIDTHS:
+        faults = faults_of(folder, pages, width, chromium)
+        print("\n".join([*faults, f"{len(pages)} pages at {width} pixels, {len(faults)} faults"]))
+        n_faults += len(faults)
+    return 1 if n_faults else 0
 
 
 if __name__ == "__main__":
