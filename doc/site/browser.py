@@ -2,8 +2,8 @@
 """Usage: browser.py FOLDER
 
 Opens the pages of the site in FOLDER from the file system, at the widths of a phone and of a desktop, in
-chromium without a window. Formulas must be set and pictures shown, and nothing may be wider than its page. Without chromium it
-checks nothing.
+chromium without a window. Formulas must be set and pictures shown, and nothing may be wider than its
+page. Without chromium it checks nothing.
 """
 
 from __future__ import annotations
