@@ -19,13 +19,14 @@ using billet::testing::SceneRun;
 
 namespace {
 
-parameters::Scene read(const unsigned int n, const unsigned int n_steps, const std::string &load) {
+parameters::Scene read(const unsigned int n, const unsigned int n_steps, const std::string &load,
+                       const unsigned int n_across = 1) {
   const std::string file = "mesh_errors.prm";
   if (testing::is_first_rank())
     std::ofstream(file) << "subsection Bodies\n  subsection bar\n    subsection Mesh\n"
                            "      set Primitive = subdivided_hyper_rectangle\n      set Arguments = "
-                        << n
-                        << ", 1, 1 : 0, 0, 0 : 10, 1, 1\n    end\n    subsection Material\n"
+                        << n << ", " << n_across
+                        << ", 1 : 0, 0, 0 : 10, 1, 1\n    end\n    subsection Material\n"
                            "      set Young modulus = 1000\n      set Poisson ratio = 0\n    end\n"
                            "    set Symmetry planes = x = 0 ; y = 0 ; z = 0\n"
                         << load << "  end\nend\nsubsection Time stepping\n  set End time = 1\nend\n";
@@ -111,7 +112,7 @@ int main(int argc, char *argv[]) {
                              "      end\n      subsection end\n        set Boundary ids = 1\n"
                              "        set Displacement = t ; 0 ; 0\n      end\n    end\n";
   for (const unsigned int n : {1U, 2U}) {
-    SceneRun layer(read(n, 1, bonded));
+    SceneRun layer(read(n, 1, bonded, 4));
     check(std::to_string(n) + " bricks between bonded faces",
           watch(layer).sees_variation() == (n > 1) ? 0. : 1., 0.5);
   }
