@@ -179,6 +179,13 @@ FIGURES = (
     ),
     Figure("README.md", BESIDE_CALCULIX, cheaper_scenes),
     Figure("doc/index.md", BESIDE_CALCULIX, cheaper_scenes),
+    Figure("doc/index.md", r"in (\d+) Newton iterations and (\d+) steps", iterations_of_billet),
+    Figure("doc/index.md", r"A step takes 1/(\d+) of CalculiX's time", gain_of_tube_impact),
+    Figure(
+        "doc/index.md",
+        r"draw-in differs from measurements by (\S+ %)",
+        cell("square-cup.md", {"bricks of the quarter": "24 × 24"}, "beside measured after 40 mm: DX, mm"),
+    ),
     Figure("doc/guide/accuracy.md", r"(\d+ of \d+) runs are within their target", runs_within_target),
     Figure(
         "doc/guide/accuracy.md",
