@@ -5,7 +5,8 @@ Checks figures in running text of README.md and doc/ against the pages of doc/re
 against doc/scenes/costs.csv and values.csv. Checks that the tables that pages insert are there.
 
 Checks that pages have no other measured figure: each number with a unit is in FIGURES, in an example of code,
-or in doc/site/constants.txt, which lists limits, defaults and data.
+or in doc/site/constants.txt, which lists limits, defaults and data. So is each number in words of runs,
+scenes, steps and the like.
 
 --write corrects figures. --accept writes constants.txt anew: look at what it adds. --self-check tests this.
 """
@@ -39,9 +40,17 @@ PAGES = (  # of doc/, beside its folders
 NUMBER = r"(?<![\w.])[−+-]?\d[\d,.]*(?:e[-+]?\d+)?"
 UNIT = (
     r"(?: ?[%°]| (?:times|iterations|steps|cuts|seconds|minutes|hours|s|ms|µs|ns|MB|GB|kN|MN|N|MPa|mm|µm|mJ|J"
-    r"|dofs|bricks|elements|instructions|runs|scenes)\b)"
+    r"|E/h|rad|dofs|bricks|elements|instructions|runs|scenes)\b)"
 )
-MEASURED = re.compile(rf"(?:{NUMBER}(?: to {NUMBER})?{UNIT}|(?<![\w.])\d[\d.]*e-\d+)(?: [a-zµ]+\b){{0,2}}")
+WORDS = (
+    *("two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"),
+    *("dozen", "twenty", "thirty", "forty", "fifty", "hundred"),
+)
+COUNTED = r"(?:iterations|steps|cuts|seconds|minutes|hours|times|runs|scenes|meshes)"
+IN_WORDS = rf"(?i:\b(?:{'|'.join(WORDS)})(?: (?:small|tiny|fixed|equal|shipped))?) {COUNTED}\b"
+MEASURED = re.compile(
+    rf"(?:{NUMBER}(?: to {NUMBER})?{UNIT}|(?<![\w.])\d[\d.]*e-\d+|{IN_WORDS})(?: [a-zµ]+\b){{0,2}}"
+)
 
 
 class Figure(NamedTuple):
@@ -68,6 +77,25 @@ def cheaper_scenes() -> tuple[str, ...]:
     )
     (n_without,) = found("work-precision.md", r"billet is the cheaper one in ([0-9]+)")
     return n_wins, str(int(n_scenes) - int(n_without))
+
+
+def in_words(number: int) -> str:
+    """Returns a number from two to twelve as a word."""
+    return WORDS[number - 2]
+
+
+def n_scenes_of_both() -> tuple[str, ...]:
+    """Returns how many scenes billet and CalculiX ran for an error over time."""
+    return (in_words(int(found("work-precision.md", r"CPU seconds in [0-9]+ of ([0-9]+) scenes")[0])),)
+
+
+def n_scenes_of_both_at_start() -> tuple[str, ...]:
+    """Returns the same as the first word of a sentence."""
+    return (n_scenes_of_both()[0].capitalize(),)
+
+
+def n_trades() -> tuple[str, ...]:
+    return (in_words(len(list((RESULTS / "trade").glob("*.md")))),)
 
 
 def iterations_of_billet() -> tuple[str, ...]:
@@ -178,6 +206,10 @@ FIGURES = (
         trade_of_billet,
     ),
     Figure("README.md", BESIDE_CALCULIX, cheaper_scenes),
+    Figure("README.md", r"CalculiX ran \[(\w+) small scenes\]", n_scenes_of_both),
+    Figure("doc/index.md", r"(\w+) \[small scenes\]", n_scenes_of_both_at_start),
+    Figure("doc/comparison.md", r"(\w+) scenes show the cost of an error", n_scenes_of_both_at_start),
+    Figure("doc/tutorials/accuracy.md", r"shows what it found in (\w+) studies", n_trades),
     Figure("doc/index.md", BESIDE_CALCULIX, cheaper_scenes),
     Figure("doc/index.md", r"in (\d+) Newton iterations and (\d+) steps", iterations_of_billet),
     Figure("doc/index.md", r"A step takes 1/(\d+) of CalculiX's time", gain_of_tube_impact),
@@ -389,6 +421,7 @@ def check_itself() -> int:
         ("It takes 12\niterations.", ["12 iterations"]),
         ("It has `5 %` and\n```\n6 %\n```\n<!-- insert: 7 % -->\n", []),
         ("to 1e-12 of the size, in 5 ways", ["1e-12 of the"]),
+        ("Six small scenes ran in two ways.", ["Six small scenes ran in"]),
     ):
         if strays_of("", text) != expected:
             print(f"'{text}' has {strays_of('', text)}, not {expected}")
