@@ -32,8 +32,8 @@ TEXT = """# Rules of language, before and after
 Written by `python3 doc/site/language.py`.
 
 This page counts what the rules of `tests/prose.py` find in the pages of the repository, those of
-figures without their tables included. The first two columns have commits before the work on language and before the
-test of the rules: {commits}.
+figures included, without their tables. The first two columns have commits before the work on
+language and before the test of the rules: {commits}.
 The last column has the pages as they are, where the test `prose` holds them.
 
 {table}
