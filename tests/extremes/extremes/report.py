@@ -624,12 +624,18 @@ PICTURES = {
 }
 
 
+LEGEND = (
+    "A colour is an outcome of the list above: *told* is a scene that is right, with a warning of the energy"
+    " that penetration takes. A number is that of iterations a step."
+)
+
+
 def draw_all(records: Records, folder: Path) -> list[str]:
     said = []
     for name, (pair, x, y, bases) in PICTURES.items():
         if draw(records, folder / f"extremes_{name}.png", pair, x, y, bases):
             said.append(f"![Outcome over {name.replace('_', ' and ')}](../images/extremes_{name}.png)")
-    return said
+    return [LEGEND, *said] if said else []
 
 
 def draw(
