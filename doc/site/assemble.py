@@ -23,6 +23,7 @@ from results import tables_of
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 from billet_tools.scene import read_scene  # noqa: E402
+from billet_tools.text import wrapped  # noqa: E402
 
 IN_NO_MENU = ("manual.md", "theory.md")  # lists of chapters, which old links lead to
 LEFT_OUT = {"site", "news"}  # folders of doc/ that are no pages
@@ -126,9 +127,9 @@ def main() -> None:
 
     reference = Reference(options.program, ROOT, pages) if options.program else None
     if reference:
-        pages.update(reference.write())
+        pages.update({name: wrapped(text) for name, text in reference.write().items()})
     else:
-        pages["messages.md"] = messages_with_headings(ROOT / "doc/messages.md")
+        pages["messages.md"] = wrapped(messages_with_headings(ROOT / "doc/messages.md"))
     insertions = Insertions(ROOT, pages, reference)
     made = {}
     for name, text in pages.items():
