@@ -33,7 +33,11 @@ copyright = "the authors of billet; LGPL 2.1 or later"
 _version = re.search(r"project\(billet VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))
 version = release = _version[1] if _version else ""
 
-extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinxarg.ext"]
+extensions = ["breathe", "myst_parser", "sphinx.ext.mathjax", "sphinxarg.ext"]
+breathe_projects = {"billet": str(HERE.parents[1] / "xml")}  # scripts/documentation makes it by Doxygen
+breathe_default_project = "billet"
+# Only a few classes have a place to link to.
+nitpick_ignore_regex = [("cpp:.*", ".*")]
 if (HERE / "references.bib").exists():
     extensions.append("sphinxcontrib.bibtex")
     bibtex_bibfiles = ["references.bib"]

@@ -42,7 +42,7 @@ for group in "$@"; do
     pictures) packages+=(paraview python3-paraview python3-pil xvfb xauth) ;; # pvpython wants a display: xvfb-run, which wants xauth
     documentation)
       packages+=(python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex python3-sphinx-argparse
-        libjs-katex chromium codespell doxygen python3-numpy python3-matplotlib)
+        python3-breathe libjs-katex chromium codespell doxygen python3-numpy python3-matplotlib)
       ;;
     package) packages+=(lintian mmdebstrap dpkg-dev) ;;
     *)

@@ -13,7 +13,7 @@ HEADING = re.compile(r"^#+ (.+)$")
 LINK = re.compile(r"\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^()\s]+)\)")
 FENCE = re.compile(r"^\s*(`{3,}|~{3,})")
 BLOCK = re.compile(
-    r"^```\{(argparse|bibliography|figure|toctree)\} *(.*?)\n(.*?)^```\n", re.MULTILINE | re.DOTALL
+    r"^```\{(argparse|bibliography|doxygen\w+|figure|toctree)\} *(.*?)\n(.*?)^```\n", re.MULTILINE | re.DOTALL
 )
 FRAME = re.compile(r"^:::.*\n", re.MULTILINE)
 ROLE = re.compile(r"\{[a-z]+\}`([^`]*)`")
@@ -109,6 +109,8 @@ class PlainPages:
             return f"![]({argument})\n" + "\n".join(lines) + "\n"
         if name == "toctree" and ":hidden:" not in content:
             return "".join(f"- [{line}]({line}.md)\n" for line in lines if line.strip())
+        if name.startswith("doxygen"):
+            return f"`{argument}`\n"
         return f"`{Path(page).stem} --help` prints the options.\n" if name == "argparse" else ""
 
     def _linked(self, page: str, text: str) -> str:
