@@ -5,8 +5,13 @@ from __future__ import annotations
 
 import posixpath
 import re
+import sys
+from fnmatch import fnmatch
 from pathlib import Path
 from typing import Iterator, Mapping
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
+from billet_tools.text import wrapped  # noqa: E402
 
 LABEL = re.compile(r"^\(([\w-]+)\)=$")
 HEADING = re.compile(r"^#+ (.+)$")
@@ -83,7 +88,8 @@ class PlainPages:
         """Returns a page."""
         text = re.sub(r"^---\norphan: true\n---\n", "", self._pages[page])
         text = FRAME.sub("", BLOCK.sub(lambda block: self._without_sphinx(page, *block.groups()), text))
-        return re.sub(r"\n{3,}", "\n\n", "".join(self._parts(page, text)))
+        text = re.sub(r"\n{3,}", "\n\n", "".join(self._parts(page, text)))
+        return text if "\\begin{" in text else wrapped(text)  # whose lines are no prose
 
     def _parts(self, page: str, text: str) -> Iterator[str]:
         """Returns a text in parts: what is code as it is, and the rest with its links."""
@@ -101,14 +107,30 @@ class PlainPages:
                 prose.append(line)
         yield self._linked(page, "".join(prose))
 
-    @staticmethod
-    def _without_sphinx(page: str, name: str, argument: str, content: str) -> str:
+    def _entries(self, page: str, line: str) -> str:
+        """Returns a list of links to the pages that a line of a list of contents names."""
+        title, _, path = line.strip().rstrip(">").rpartition(" <")
+        here = posixpath.dirname(page)
+        pattern = posixpath.normpath(posixpath.join(here, path + ".md"))
+        found = [
+            name
+            for name in sorted(self._pages)
+            if fnmatch(name, pattern) and name != page and name.count("/") == pattern.count("/")
+        ]
+        lines = ""
+        for name in found:
+            heading = re.search(r"^# (.+)$", self._pages[name], re.MULTILINE)
+            words = title or (heading[1] if heading else Path(name).stem)
+            lines += f"- [{words}]({posixpath.relpath(name, here)})\n"
+        return lines
+
+    def _without_sphinx(self, page: str, name: str, argument: str, content: str) -> str:
         """Returns what stands for a block that Sphinx fills."""
         lines = [line for line in content.splitlines() if not re.match(r":\w+:", line)]
         if name == "figure":
             return f"![]({argument})\n" + "\n".join(lines) + "\n"
         if name == "toctree" and ":hidden:" not in content:
-            return "".join(f"- [{line}]({line}.md)\n" for line in lines if line.strip())
+            return "".join(self._entries(page, line) for line in lines)
         if name.startswith("doxygen"):
             return f"`{argument}`\n"
         return f"`{Path(page).stem} --help` prints the options.\n" if name == "argparse" else ""
