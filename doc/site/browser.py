@@ -26,7 +26,7 @@ from urllib.parse import quote
 from search_terms import TERMS
 
 WIDTHS = (390, 1280)  # pixels, of a common phone and a small desktop
-SECONDS = 170
+SECONDS = 900  # of one look, on a machine that may be busy
 LACKING = 3  # exit code
 SHOWN = (
     "index.html",
