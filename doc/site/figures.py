@@ -5,7 +5,8 @@ Checks figures in running text of README.md and doc/ against the pages of doc/re
 against doc/scenes/costs.csv and values.csv. Checks that the tables that pages insert are there.
 
 Checks that pages have no other measured figure: each number with a unit is in FIGURES, in an example of code,
-or in doc/site/constants.txt, which lists limits, defaults and data.
+or in doc/site/constants.txt, which lists limits, defaults and data. So is each number in words of runs,
+scenes, steps and the like.
 
 --write corrects figures. --accept writes constants.txt anew: look at what it adds. --self-check tests this.
 """
@@ -39,9 +40,17 @@ PAGES = (  # of doc/, beside its folders
 NUMBER = r"(?<![\w.])[−+-]?\d[\d,.]*(?:e[-+]?\d+)?"
 UNIT = (
     r"(?: ?[%°]| (?:times|iterations|steps|cuts|seconds|minutes|hours|s|ms|µs|ns|MB|GB|kN|MN|N|MPa|mm|µm|mJ|J"
-    r"|dofs|bricks|elements|instructions|runs|scenes)\b)"
+    r"|E/h|rad|dofs|bricks|elements|instructions|runs|scenes)\b)"
 )
-MEASURED = re.compile(rf"(?:{NUMBER}(?: to {NUMBER})?{UNIT}|(?<![\w.])\d[\d.]*e-\d+)(?: [a-zµ]+\b){{0,2}}")
+WORDS = (
+    *("two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"),
+    *("dozen", "twenty", "thirty", "forty", "fifty", "hundred"),
+)
+COUNTED = r"(?:iterations|steps|cuts|seconds|minutes|hours|times|runs|scenes|meshes)"
+IN_WORDS = rf"(?i:\b(?:{'|'.join(WORDS)})(?: (?:small|tiny|fixed|equal|shipped))?) {COUNTED}\b"
+MEASURED = re.compile(
+    rf"(?:{NUMBER}(?: to {NUMBER})?{UNIT}|(?<![\w.])\d[\d.]*e-\d+|{IN_WORDS})(?: [a-zµ]+\b){{0,2}}"
+)
 
 
 class Figure(NamedTuple):
@@ -70,6 +79,25 @@ def cheaper_scenes() -> tuple[str, ...]:
     return n_wins, str(int(n_scenes) - int(n_without))
 
 
+def in_words(number: int) -> str:
+    """Returns a number from two to twelve as a word."""
+    return WORDS[number - 2]
+
+
+def n_scenes_of_both() -> tuple[str, ...]:
+    """Returns how many scenes billet and CalculiX ran for an error over time."""
+    return (in_words(int(found("work-precision.md", r"CPU seconds in [0-9]+ of ([0-9]+) scenes")[0])),)
+
+
+def n_scenes_of_both_at_start() -> tuple[str, ...]:
+    """Returns the same as the first word of a sentence."""
+    return (n_scenes_of_both()[0].capitalize(),)
+
+
+def n_trades() -> tuple[str, ...]:
+    return (in_words(len(list((RESULTS / "trade").glob("*.md")))),)
+
+
 def iterations_of_billet() -> tuple[str, ...]:
     with (ROOT / "doc/scenes/costs.csv").open(encoding="utf-8", newline="") as file:
         row = next(row for row in csv.DictReader(file) if row["scene"] == "billet_upsetting")
@@ -82,9 +110,12 @@ def gain_of_tube_impact() -> tuple[str, ...]:
 
 
 def silent_errors() -> tuple[str, ...]:
+    """Returns how many small runs could be judged, and how many of them were wrong in silence."""
     table = tables_of(RESULTS / "silent-errors.md")[0]
-    n_wrong = sum(int(row[table.head.index("wrong")]) for row in table.rows)
-    return (str(n_wrong) if n_wrong else "none",)
+    n_runs, n_unclear, n_wrong = (
+        sum(int(row[table.head.index(name)]) for row in table.rows) for name in ("runs", "unclear", "wrong")
+    )
+    return str(n_runs - n_unclear), str(n_wrong) if n_wrong else "none"
 
 
 def n_extreme_scenes() -> tuple[str, ...]:
@@ -100,6 +131,10 @@ def trade_of_billet() -> tuple[str, ...]:
 
 def runs_within_target() -> tuple[str, ...]:
     return found("target-error.md", r"([0-9]+ of [0-9]+) runs are within their target")
+
+
+def runs_within_target_of_mesh() -> tuple[str, ...]:
+    return found("target-mesh.md", r"([0-9]+ of [0-9]+) runs are within their target, and ([0-9]+) more say")
 
 
 def cost_of(scene: str, *columns: str) -> Callable[[], tuple[str, ...]]:
@@ -159,16 +194,30 @@ STIFF_DIES = {"die / billet": "100"}
 FIGURES = (
     Figure("README.md", r"(\d+) Newton iterations in (\d+) steps", iterations_of_billet),
     Figure("README.md", r"a step takes 1/(\d+) of CalculiX's time", gain_of_tube_impact),
-    Figure("README.md", r"target error, and (\d+ of \d+) runs meet it", runs_within_target),
-    Figure("README.md", r"that have a reference, (\w+) was wrong without a warning", silent_errors),
-    Figure("README.md", r"([\d,]+) scenes vary\s+parameters, meshes", n_extreme_scenes),
+    Figure("README.md", r"error of forces, and (\d+ of \d+) runs meet it", runs_within_target),
+    Figure(
+        "README.md", r"the target, (\d+ of \d+) runs meet it, and (\d+) more say", runs_within_target_of_mesh
+    ),
+    Figure("README.md", r"of (\d+) small runs, (\w+) was wrong without a warning", silent_errors),
+    Figure("README.md", r"that of ([\d,]+) tiny scenes", n_extreme_scenes),
     Figure(
         "README.md",
-        r"one that is ([\d.]+) times cheaper, with an error below ([\d.]+ %)",
+        r"finer billet, ([\d.]+) times cheaper with an error below ([\d.]+ %)",
         trade_of_billet,
     ),
     Figure("README.md", BESIDE_CALCULIX, cheaper_scenes),
+    Figure("README.md", r"CalculiX ran \[(\w+) small scenes\]", n_scenes_of_both),
+    Figure("doc/index.md", r"(\w+) \[small scenes\]", n_scenes_of_both_at_start),
+    Figure("doc/comparison.md", r"(\w+) scenes show the cost of an error", n_scenes_of_both_at_start),
+    Figure("doc/tutorials/accuracy.md", r"shows what it found in (\w+) studies", n_trades),
     Figure("doc/index.md", BESIDE_CALCULIX, cheaper_scenes),
+    Figure("doc/index.md", r"in (\d+) Newton iterations and (\d+) steps", iterations_of_billet),
+    Figure("doc/index.md", r"A step takes 1/(\d+) of CalculiX's time", gain_of_tube_impact),
+    Figure(
+        "doc/index.md",
+        r"draw-in differs from measurements by (\S+ %)",
+        cell("square-cup.md", {"bricks of the quarter": "24 × 24"}, "beside measured after 40 mm: DX, mm"),
+    ),
     Figure("doc/guide/accuracy.md", r"(\d+ of \d+) runs are within their target", runs_within_target),
     Figure(
         "doc/guide/accuracy.md",
@@ -372,6 +421,7 @@ def check_itself() -> int:
         ("It takes 12\niterations.", ["12 iterations"]),
         ("It has `5 %` and\n```\n6 %\n```\n<!-- insert: 7 % -->\n", []),
         ("to 1e-12 of the size, in 5 ways", ["1e-12 of the"]),
+        ("Six small scenes ran in two ways.", ["Six small scenes ran in"]),
     ):
         if strays_of("", text) != expected:
             print(f"'{text}' has {strays_of('', text)}, not {expected}")

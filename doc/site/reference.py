@@ -107,14 +107,7 @@ class Reference:
         shipped = sorted((self._root / "prm").glob("*.prm"))
         parts = sorted((self._root / "prm").glob("*/*.prm"))
         examples = sorted((self._root / "examples").rglob("*.prm"))
-        # Scenes of tests/ that run; others there are wrong on purpose.
-        tests = [
-            file
-            for folder in ("scenes", "cli", "cli/files", "benchmarks")
-            for file in sorted((self._root / "tests" / folder).glob("*.prm"))
-            if not file.name.startswith("bad_")
-        ]
-        for file in [*shipped, *parts, *examples, *tests]:
+        for file in [*shipped, *parts, *examples]:
             path: list[str] = []
             for line in file.read_text(encoding="utf-8", errors="replace").splitlines():
                 words = line.split("#")[0].strip()

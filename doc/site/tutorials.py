@@ -3,12 +3,14 @@
 
 Runs the scenes of the tutorials, all or those named, as their pages say. Draws doc/images/tutorial_NAME.png
 and writes the figures that the pages insert to doc/tutorials/values.csv. Writes messages that pages insert
-to doc/tutorials/NAME.txt. Results go to FOLDER/NAME.
+to doc/tutorials/NAME.txt. 'accuracy' measures the times of the commands of that tutorial. Results go to
+FOLDER/NAME.
 """
 
 from __future__ import annotations
 
 import csv
+import math
 import os
 import re
 import subprocess
@@ -53,6 +55,8 @@ class Tutorial(NamedTuple):
     y_label: str
     curves: tuple[Curve, ...]
     values: tuple[Value, ...]
+    below: tuple[str, tuple[Curve, ...]] = ("", ())  # label and curves of a second plot over the same axis
+    is_included: bool = False  # by the scene on the page, which runs in its place
 
 
 def at(rows: Rows, time: float) -> dict[str, float]:
@@ -72,6 +76,19 @@ def mean(rows: Rows, value: Callable[[dict[str, float]], float], begin: float, e
 def friction_of_ironing(row: dict[str, float]) -> float:
     """Returns the horizontal over the vertical force."""
     return abs(row["face.force_x"] / row["face.force_z"])
+
+
+def angle_of_strip(row: dict[str, float]) -> float:
+    """Returns by how many degrees the free end of the strip points down."""
+    x, y = (row[f"flank.2.position_{axis}"] - row[f"flank.1.position_{axis}"] for axis in "xy")
+    return -math.degrees(math.atan2(y, x))
+
+
+def radius_of_strip(row: dict[str, float]) -> float:
+    """Returns the radius of the circle through three points of the bend."""
+    a, b, c = (complex(row[f"corner.{i}.position_x"], row[f"corner.{i}.position_y"]) for i in (1, 2, 3))
+    area = abs(((b - a).conjugate() * (c - a)).imag) / 2
+    return abs(b - a) * abs(c - b) * abs(a - c) / (4 * area)
 
 
 TUTORIALS = {
@@ -185,7 +202,13 @@ TUTORIALS = {
             ),
             ("elastic energy when the punch leaves, mJ", lambda r: f"{at(r, 0.8)['elastic_energy']:.1f}"),
             ("elastic energy at the end, mJ", lambda r: f"{r[-1]['elastic_energy']:.1f}"),
+            ("angle of the free end when the punch leaves, °", lambda r: f"{angle_of_strip(at(r, 0.8)):.1f}"),
+            ("angle after springback, °", lambda r: f"{angle_of_strip(r[-1]):.1f}"),
+            ("inner radius when the punch leaves, mm", lambda r: f"{radius_of_strip(at(r, 0.8)):.2f}"),
+            ("inner radius after springback, mm", lambda r: f"{radius_of_strip(r[-1]):.2f}"),
         ),
+        ("angle of the free end, °", (Curve("", lambda r: r["time"], angle_of_strip),)),
+        True,
     ),
 }
 
@@ -207,11 +230,27 @@ PRINTED = {
 }
 
 
-def run(program: str, name: str, folder: Path) -> tuple[Rows, list[tuple[str, str]]]:
-    """Runs a tutorial; returns its history and what it cost."""
-    tutorial = TUTORIALS[name]
-    output = folder / name
-    command = [program, str(ROOT / tutorial.scene), *tutorial.options, "--output", str(output), "--force"]
+# Commands of accuracy.md on the billet, by what its table calls them
+TIMED = {
+    "as shipped": (),
+    "`Target error=1 percent`": ("--set", "Target error=1 percent"),
+    "a mesh twice as fine": (
+        "--set",
+        "Bodies/billet/Mesh/Refinements=2",
+        "--set",
+        "Bodies/billet/Mesh/Layers=10",
+    ),
+    "`Target error of=everything`": (
+        "--set",
+        "Target error=3 percent",
+        "--set",
+        "Target error of=everything",
+    ),
+}
+
+
+def ask(command: list[str], name: str) -> tuple[str, float]:
+    """Returns what a command prints, and its processor time."""
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
         assert process.stdout
         text = process.stdout.read()
@@ -219,6 +258,27 @@ def run(program: str, name: str, folder: Path) -> tuple[Rows, list[tuple[str, st
         process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode:
         raise SystemExit(f"{name}: exit code {process.returncode}\n{text[-2000:]}")
+    return text, usage.ru_utime + usage.ru_stime
+
+
+def scene_of_page(name: str, folder: Path) -> Path:
+    """Writes the scene on a page that includes the tutorial's."""
+    text = (ROOT / f"doc/tutorials/{name}.md").read_text(encoding="utf-8")
+    scene = re.search(r"^```prm\ninclude \S+\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+    if not scene:
+        raise SystemExit(f"{name}.md: no scene begins with 'include'")
+    file = folder / f"{name}.prm"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(f"include {ROOT / TUTORIALS[name].scene}\n{scene[1]}", encoding="utf-8")
+    return file
+
+
+def run(program: str, name: str, folder: Path) -> tuple[Rows, list[tuple[str, str]]]:
+    """Runs a tutorial; returns its history and what it cost."""
+    tutorial = TUTORIALS[name]
+    output = folder / name
+    scene = scene_of_page(name, folder) if tutorial.is_included else ROOT / tutorial.scene
+    text, seconds = ask([program, str(scene), *tutorial.options, "--output", str(output), "--force"], name)
     with (output / "history.csv").open(encoding="utf-8", newline="") as file:
         rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
     elements = re.search(r"^(\d+) elements", text, re.MULTILINE)
@@ -227,22 +287,29 @@ def run(program: str, name: str, folder: Path) -> tuple[Rows, list[tuple[str, st
         cost.append(
             ("steps and Newton iterations", f"{rows[-1]['step']:.0f} and {rows[-1]['total_iterations']:.0f}")
         )
-    cost.append(("processor time, s", f"{usage.ru_utime + usage.ru_stime:.2g}"))
+    cost.append(("processor time, s", f"{seconds:.2g}"))
     return rows, cost
 
 
 def draw(name: str, rows: Rows) -> None:
     tutorial = TUTORIALS[name]
-    figure, axes = pyplot.subplots(figsize=(6.4, 3.6), layout="constrained")
-    for curve in tutorial.curves:
-        style = "o" if curve.label == "run" else "-"  # beside a closed form
-        axes.plot([curve.x(row) for row in rows], [curve.y(row) for row in rows], style, label=curve.label)
-    axes.set_xlabel(tutorial.x_label)
-    axes.set_ylabel(tutorial.y_label)
-    axes.set_ylim(bottom=0)
-    axes.grid(alpha=0.3)
-    if len(tutorial.curves) > 1:
-        axes.legend()
+    plots = [(tutorial.y_label, tutorial.curves)] + ([tutorial.below] if tutorial.below[1] else [])
+    height = 3.6 if len(plots) == 1 else 5.4
+    figure, all_axes = pyplot.subplots(
+        len(plots), figsize=(6.4, height), layout="constrained", sharex=True, squeeze=False
+    )
+    for axes, (label, curves) in zip(all_axes[:, 0], plots):
+        for curve in curves:
+            style = "o" if curve.label == "run" else "-"  # beside a closed form
+            axes.plot(
+                [curve.x(row) for row in rows], [curve.y(row) for row in rows], style, label=curve.label
+            )
+        axes.set_ylabel(label)
+        axes.set_ylim(bottom=0)
+        axes.grid(alpha=0.3)
+        if len(curves) > 1:
+            axes.legend()
+    all_axes[-1, 0].set_xlabel(tutorial.x_label)
     figure.savefig(ROOT / f"doc/images/tutorial_{name}.png", dpi=100, metadata={"Software": None})
     pyplot.close(figure)
 
@@ -264,9 +331,22 @@ def keep_printed(program: str, name: str, folder: Path) -> None:
     (ROOT / f"doc/tutorials/{name}.txt").write_text(text + "\n", encoding="utf-8")
 
 
+def times_of_accuracy(program: str, folder: Path) -> list[tuple[str, str]]:
+    """Measures the processor times of the commands of the tutorial on accuracy."""
+    scene, output = str(ROOT / "prm/billet_upsetting.prm"), str(folder / "accuracy")
+    trade = [sys.executable, str(ROOT / "tools/billet-trade"), scene, "--explain", "--program", program]
+    commands = {
+        label: [program, scene, "--output", output, "--force", *words] for label, words in TIMED.items()
+    }
+    commands["`billet-trade --explain`"] = [*trade, "--output", str(folder / "explain")]
+    return [
+        (f"processor time, s: {label}", f"{ask(words, label)[1]:.2g}") for label, words in commands.items()
+    ]
+
+
 def main() -> None:
     program, folder = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2]).resolve()
-    names = sys.argv[3:] or [*TUTORIALS, *PRINTED]
+    names = sys.argv[3:] or [*TUTORIALS, *PRINTED, "accuracy"]
     for name in PRINTED:
         if name in names:
             names.remove(name)
@@ -276,16 +356,18 @@ def main() -> None:
         with VALUES.open(encoding="utf-8", newline="") as file:
             kept = list(csv.reader(file))[1:]
     for name in names:
-        rows, cost = run(program, name, folder)
-        if TUTORIALS[name].curves:
+        if name == "accuracy":
+            figures = times_of_accuracy(program, folder)
+        else:
+            rows, figures = run(program, name, folder)
             draw(name, rows)
-        figures = [*cost, *((label, value(rows)) for label, value in TUTORIALS[name].values)]
+            figures += [(label, value(rows)) for label, value in TUTORIALS[name].values]
         kept = [row for row in kept if row[0] != name] + [[name, *figure] for figure in figures]
         print(name, figures, flush=True)
         with VALUES.open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(("tutorial", "quantity", "value"))
-            writer.writerows(row for key in TUTORIALS for row in kept if row[0] == key)
+            writer.writerows(row for key in [*TUTORIALS, "accuracy"] for row in kept if row[0] == key)
 
 
 if __name__ == "__main__":

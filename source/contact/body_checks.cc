@@ -6,8 +6,6 @@
 
 namespace billet {
 
-bool BodyChecks::has_restless() const { return !contact_.measures().find_restless().empty(); }
-
 Explanation BodyChecks::describe_restless() const {
   const std::string what = describe_restless_nodes(contact_.measures().find_restless(), pair_.name,
                                                    "facet or status", communicator_);

@@ -318,6 +318,20 @@ def _() -> None:
     require(n_commands > 20, f"only {n_commands} commands")
 
 
+@check("the probes of the springback tutorial read what doc/site/tutorials.py computes angle and radius from")
+def _() -> None:
+    parts = [
+        part for page, part in scenes_of_guide("tutorials/*.md") if part.startswith("include bending.prm")
+    ]
+    equal("scenes with probes", len(parts), 1)
+    write_text("springback.prm", parts[0].replace("bending.prm", str(SHIPPED / "templates/bending.prm")))
+    ended = run(program, "springback.prm")
+    equal("exit code", ended.code, 0)
+    columns = read_text("springback/history.csv").split("\n")[0].split(",")
+    for name in ("flank.1.position_x", "flank.2.position_y", "corner.1.position_x", "corner.3.position_y"):
+        require(name in columns, f"no column {name}")
+
+
 @check("Getting started shows what the program prints")
 def _() -> None:
     page = read_text(HERE.parents[1] / "doc/start.md")

@@ -18,7 +18,6 @@ public:
   BodyChecks(const BodyPair &pair, const FacetContact &contact, MPI_Comm communicator)
       : pair_(pair), contact_(contact), communicator_(communicator) {}
 
-  bool has_restless() const override;
   Explanation describe_restless() const override;
   std::string describe_obstacle() const override;
 

@@ -28,8 +28,6 @@ public:
   /// Explains the failure of a step in which nodes have gone through.
   virtual Explanation describe_passage() const { return {}; }
 
-  /// Whether nodes of this rank chatter: they keep changing facet or status. Not collective.
-  virtual bool has_restless() const = 0;
   /// Returns a clause about chattering nodes, which keep changing facet or status; empty if there
   /// are none.
   virtual Explanation describe_restless() const { return {}; }

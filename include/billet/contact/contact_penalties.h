@@ -37,9 +37,6 @@ public:
   /// Multiplies penalties and keeps tractions: the excess penetration is allowed from now on. After
   /// update() without augmentation.
   virtual void scale_under_load(double normal, double tangential) = 0;
-  /// Reduces penalties and keeps tractions: multipliers take over what springs lose. At the start
-  /// of a step, after update(). Contact between bodies only keeps its multipliers.
-  virtual void lower_under_load(const double normal, const double tangential) { scale(normal, tangential); }
   /// Returns the factors on the given penalties so far.
   virtual double stiffening() const = 0;
   virtual double tangential_stiffening() const = 0;

@@ -23,7 +23,8 @@ public:
   bool lets_nodes_through() const override;
   Explanation describe_passage() const override;
   std::string describe_obstacle() const override;
-  bool has_restless() const override { return parts_.restless.has_any(); }
+  /// Whether nodes of this rank are restless. Not collective.
+  bool has_restless() const { return parts_.restless.has_any(); }
   Explanation describe_restless() const override;
   /// Whether the edge of the tool's surface is within a tenth of a facet of this rank's node at
   /// `position`.

@@ -110,6 +110,16 @@ bool bears_nothing(const ImplicitProblem &problem, const std::optional<std::size
          !parts.scheme().tools().has_mass(*tool);
 }
 
+/// Returns the factor, in whole octaves, by which a penalty falls to at most `wanted` [E/h]; 1 or
+/// more if it need not. `room` is that by which it may rise.
+template <class Contact> double fall_to(const double wanted, const double room, const Contact &contact) {
+  if (wanted > enough_penalty || !contact.settings().is_augmented())
+    return 1.;
+  constexpr double round_off = 1e-9; // no sheet's penalty falls for its last bit
+  const double left = wanted / enough_penalty * room;
+  return whole_octaves(contact.penalties().is_of_sheet() ? (1. + round_off) * left : left);
+}
+
 double max_force(const std::vector<ContactSprings> &springs) {
   double maximum = 0.;
   for (const ContactSprings &of_pair : springs)
@@ -122,7 +132,9 @@ double max_force(const std::vector<ContactSprings> &springs) {
 Augmentation::Augmentation(ImplicitProblem &problem, EquilibriumSolver &solver,
                            PenetrationMeasurement &measurement)
     : problem_(problem), solver_(solver), measurement_(measurement),
-      softness_(softness_rules(parts_.contacts())) {}
+      softness_(softness_rules(parts_.contacts())),
+      has_sheets_(std::any_of(parts_.contacts().begin(), parts_.contacts().end(),
+                              [](const auto &contact) { return contact.penalties().is_of_sheet(); })) {}
 
 std::vector<SoftnessLimit::Rule> Augmentation::softness_rules(const ContactSet &contacts) {
   return contacts.collect([](const auto &contact) {
@@ -157,110 +169,113 @@ std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double
 }
 
 std::vector<bool> Augmentation::restless_sheets() const {
-  const std::vector<double> restless = parts_.contacts().collect_max([](const auto &contact) {
-    return contact.penalties().is_of_sheet() && contact.checks().has_restless() ? 1. : 0.;
-  });
+  const ContactSet &contacts = parts_.contacts();
+  std::vector<double> restless(contacts.size(), 0.);
+  if (!has_sheets_)
+    return std::vector<bool>(restless.size());
+  for (std::size_t i = 0; i < contacts.of_tools().size(); ++i)
+    if (contacts[i].penalties().is_of_sheet() && contacts.of_tools()[i].checks().has_restless())
+      restless[i] = 1.;
+  dealii::Utilities::MPI::max(restless, parts_.communicator(), restless);
   return {restless.begin(), restless.end()};
+}
+
+std::vector<bool> Augmentation::stacked_sheets() const {
+  const auto &pairs = parts_.scene().pairs();
+  const auto &of_bodies = parts_.scene().body_pairs();
+  std::vector<bool> stacked(parts_.contacts().size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    stacked[i] = parts_.contacts()[i].penalties().is_of_sheet() &&
+                 std::any_of(of_bodies.begin(), of_bodies.end(), [&](const BodyPair &pair) {
+                   return !pair.is_self_contact &&
+                          (pair.bodies[0] == pairs[i].body || pair.bodies[1] == pairs[i].body);
+                 });
+  return stacked;
 }
 
 bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std::string &reason,
                                    SpringBooks &books, DiagnosticList &messages) {
-  constexpr double round_off = 1e-9;
   ContactSet &contacts = parts_.contacts();
   const std::vector<double> room = contacts.stiffening_left();
-  std::vector<double> factors(room.size(), 1.);
-  for (std::size_t i = 0; i < room.size(); ++i)
-    if (contacts[i].settings().is_augmented()) {
-      const double left =
-          wanted[i] < enough_penalty ? (1. + round_off) * wanted[i] / enough_penalty * room[i] : room[i];
-      factors[i] = wanted[i] > enough_penalty ? 1. : std::min(1., whole_octaves(left));
-    }
-  if (std::all_of(factors.begin(), factors.end(), [](const double factor) { return factor == 1.; }))
-    return false;
-  const double time = problem_.step().time;
-  const bool keeps_tractions = *std::min_element(wanted.begin(), wanted.end()) < enough_penalty;
-  if (keeps_tractions)
-    problem_.evaluate_start();
-  const std::vector<double> before = contacts.stored_energies();
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    if (factors[i] == 1.)
+  std::vector<double> of_sheets(room.size(), 1.); // factors
+  bool has_lowered = false;
+  for (std::size_t i = 0; i < room.size(); ++i) {
+    const double factor = fall_to(wanted[i], room[i], contacts[i]);
+    if (!(factor < 1.))
       continue;
+    has_lowered = true;
     if (wanted[i] < enough_penalty)
-      contacts[i].penalties().lower_under_load(
-          factors[i], contacts[i].settings().input->penalty.is_tangential_given ? 1. : factors[i]);
+      of_sheets[i] = factor;
     else
-      contacts[i].penalties().scale(factors[i], factors[i]);
-    const double penalty = enough_penalty / room[i];
+      contacts[i].penalties().scale(factor, factor);
+    const double before = enough_penalty / room[i];
     std::ostringstream text;
-    text << "The penalty is reduced from " << penalty << " to " << penalty * factors[i] << " E/h, since "
-         << reason << "; augmentation enforces the constraint";
+    text << "The penalty is reduced from " << before << " to " << before * factor << " E/h, since " << reason
+         << "; augmentation enforces the constraint";
     messages.push_back(Diagnostic(diagnostic::penalty_reduced, text.str())
                            .pair(contacts[i].name())
-                           .time(time)
-                           .value("penalty [E/h]", penalty * factors[i]));
+                           .time(problem_.step().time)
+                           .value("penalty [E/h]", before * factor));
   }
-  problem_.scales().spring_round_off = contacts.find_spring_round_off();
-  if (!keeps_tractions)
-    return true;
-  problem_.evaluate_start();
-  const std::vector<double> after = contacts.stored_energies();
-  for (std::size_t i = 0; i < factors.size(); ++i)
-    if (factors[i] < 1. && wanted[i] < enough_penalty) {
-      softness_.forget(i);
-      books.add(i, after[i] - before[i]);
-      problem_.state().energies.external += after[i] - before[i];
-    }
-  return true;
+  if (std::any_of(of_sheets.begin(), of_sheets.end(), [](const double factor) { return factor < 1.; }))
+    books.change_at_start([&] {
+      for (std::size_t i = 0; i < contacts.of_tools().size(); ++i)
+        if (of_sheets[i] < 1.) {
+          contacts.of_tools()[i].penalties().lower_under_load(
+              of_sheets[i], contacts[i].settings().input->penalty.is_tangential_given ? 1. : of_sheets[i]);
+          softness_.forget(i);
+        }
+    });
+  else if (has_lowered)
+    problem_.scales().spring_round_off = contacts.find_spring_round_off();
+  return has_lowered;
 }
 
 bool Augmentation::soften_contacts(const NewtonReport &failed, SpringBooks &books, DiagnosticList &messages) {
+  const ContactSet &contacts = parts_.contacts();
+  std::vector<double> wanted(contacts.size(), enough_penalty);
+  const std::vector<double> room = contacts.stiffening_left();
+  bool is_raised = false; // by augmentation: that falls first
+  for (std::size_t i = 0; i < room.size(); ++i)
+    is_raised = is_raised || fall_to(enough_penalty, room[i], contacts[i]) < 1.;
   const std::vector<bool> restless = restless_sheets();
-  std::vector<double> wanted(restless.size(), enough_penalty);
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    if (restless[i] || (!failed.is_slow && parts_.contacts()[i].penalties().is_of_sheet()))
+  for (std::size_t i = 0; !is_raised && i < wanted.size(); ++i)
+    if (restless[i] || (!failed.is_slow && contacts[i].penalties().is_of_sheet()))
       wanted[i] = sheet_penalty;
   return lower_penalties(wanted, "Newton's method failed", books, messages);
 }
 
-void Augmentation::soften_sheets(SpringBooks &books, DiagnosticList &messages) {
-  if (restless_steps_.empty())
-    soften_stacks(books, messages);
-  std::vector<double> wanted(restless_steps_.size(), std::numeric_limits<double>::max());
-  bool is_wanted = false;
+void Augmentation::lower_sheets(const std::vector<bool> &chosen, const std::string &reason,
+                                SpringBooks &books, DiagnosticList &messages) {
+  if (std::none_of(chosen.begin(), chosen.end(), [](const bool is_chosen) { return is_chosen; }))
+    return;
+  std::vector<double> wanted(chosen.size(), std::numeric_limits<double>::max());
   for (std::size_t i = 0; i < wanted.size(); ++i)
-    if (restless_steps_[i] >= Limits::restless_steps) {
+    if (chosen[i])
       wanted[i] = sheet_penalty;
-      restless_steps_[i] = 0.;
-      is_wanted = true;
-    }
-  if (is_wanted)
-    lower_penalties(wanted, "nodes of a thin sheet open and close in turn", books, messages);
+  lower_penalties(wanted, reason, books, messages);
 }
 
-void Augmentation::soften_stacks(SpringBooks &books, DiagnosticList &messages) {
-  restless_steps_.assign(parts_.contacts().size(), 0.);
-  const auto &pairs = parts_.scene().pairs();
-  const auto &of_bodies = parts_.scene().body_pairs();
-  std::vector<double> wanted(restless_steps_.size(), std::numeric_limits<double>::max());
-  bool is_wanted = false;
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (parts_.contacts()[i].penalties().is_of_sheet() &&
-        std::any_of(of_bodies.begin(), of_bodies.end(), [&](const BodyPair &pair) {
-          return !pair.is_self_contact &&
-                 (pair.bodies[0] == pairs[i].body || pair.bodies[1] == pairs[i].body);
-        })) {
-      wanted[i] = sheet_penalty;
-      is_wanted = true;
+void Augmentation::soften_sheets(SpringBooks &books, DiagnosticList &messages) {
+  if (!has_sheets_)
+    return;
+  if (restless_steps_.empty()) { // before the first step
+    restless_steps_.assign(parts_.contacts().size(), 0.);
+    lower_sheets(stacked_sheets(), "the body is a thin sheet that other bodies may touch", books, messages);
+  }
+  std::vector<bool> restless(restless_steps_.size());
+  for (std::size_t i = 0; i < restless.size(); ++i)
+    if (restless_steps_[i] >= Limits::restless_steps) {
+      restless[i] = true;
+      restless_steps_[i] = 0.;
     }
-  if (is_wanted)
-    lower_penalties(wanted, "the body is a thin sheet that other bodies may touch", books, messages);
+  lower_sheets(restless, "nodes of a thin sheet open and close in turn", books, messages);
 }
 
 void Augmentation::commit() {
   softness_.commit(contact_springs(), parts_.parameters().solver.force_tolerance);
   const std::vector<bool> restless = restless_sheets();
-  restless_steps_.resize(restless.size(), 0.);
-  for (std::size_t i = 0; i < restless.size(); ++i)
+  for (std::size_t i = 0; i < restless_steps_.size(); ++i)
     if (restless[i] && !parts_.contacts()[i].penalties().is_of_soft_sheet())
       restless_steps_[i] += 1.;
 }
@@ -522,13 +537,14 @@ DiagnosticList Augmentation::finish() const {
 void Augmentation::save(StateWriter &writer) const {
   if (softness_.is_used())
     writer.write("softness", softness_.save());
-  writer.write("steps with restless sheets", restless_steps_);
+  if (has_sheets_)
+    writer.write("steps with restless sheets", restless_steps_);
 }
 
 void Augmentation::load(StateReader &reader) {
   if (softness_.is_used() && reader.has("softness"))
     softness_.load(reader.read("softness"));
-  if (reader.has("steps with restless sheets")) {
+  if (has_sheets_ && reader.has("steps with restless sheets")) {
     restless_steps_ = reader.read("steps with restless sheets");
     restless_steps_.resize(parts_.contacts().size(), 0.); // saved for other pairs
   }

@@ -23,6 +23,20 @@ void SpringBooks::add(const std::size_t contact, const double change) {
   energy(contact) += change;
 }
 
+void SpringBooks::change_at_start(const std::function<void()> &change) {
+  ContactSet &contacts = parts_.contacts();
+  problem_.evaluate_start();
+  const std::vector<double> before = contacts.stored_energies();
+  change();
+  problem_.scales().spring_round_off = contacts.find_spring_round_off();
+  problem_.evaluate_start();
+  const std::vector<double> after = contacts.stored_energies();
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    add(i, after[i] - before[i]);
+    problem_.state().energies.external += after[i] - before[i];
+  }
+}
+
 void SpringBooks::check_pair(const std::string &name, Penetration deepest, const double moved,
                              const double stored_energy, DiagnosticList &messages) {
   deepest = {dealii::Utilities::MPI::max(deepest.of_facet, parts_.communicator()),
@@ -79,19 +93,13 @@ std::optional<StepFailure> PenaltyRaises::judge() {
 
 DiagnosticList PenaltyRaises::raise() {
   ContactSet &contacts = parts_.contacts();
-  problem_.evaluate_start();
-  const std::vector<double> before = contacts.stored_energies();
-  for (std::size_t i = 0; i < factors_.size(); ++i)
-    if (factors_[i] > 1.)
-      contacts[i].penalties().scale(factors_[i], factors_[i]);
-  problem_.scales().spring_round_off = contacts.find_spring_round_off();
-  problem_.evaluate_start();
-  const std::vector<double> after = contacts.stored_energies();
+  books_.change_at_start([&] {
+    for (std::size_t i = 0; i < factors_.size(); ++i)
+      if (factors_[i] > 1.)
+        contacts[i].penalties().scale(factors_[i], factors_[i]);
+  });
   SolutionState &state = problem_.state();
   for (std::size_t i = 0; i < factors_.size(); ++i) {
-    const double given = after[i] - before[i];
-    books_.add(i, given);
-    state.energies.external += given;
     if (const auto &tool = contacts[i].rigid_tool(); tool && !parts_.removal().is_removed(*tool))
       state.tool_loads[*tool] = contacts.compute_load(*tool);
   }

@@ -28,11 +28,12 @@ public:
   /// reported.
   void may_leave_penetration() { may_leave_penetration_ = true; }
   /// Reduces the penalties of augmented contacts that exceed 10 E/h to that value after a failure,
-  /// with a message on each. Those of sheets fall to (T13), unless the iterations were merely slow.
-  /// Returns false if there is none. Collective.
+  /// with a message on each. If none does, those of sheets fall to (T13), unless the iterations were
+  /// merely slow. Returns false if there is none. Collective.
   bool soften_contacts(const NewtonReport &failed, SpringBooks &books, DiagnosticList &messages);
-  /// Reduces the penalties of sheets to (T13), before a step, if nodes have been restless in two
-  /// steps so far. Adds a message on each pair. Collective.
+  /// Reduces the penalties of sheets to (T13), before a step: of stacks before the first one, of
+  /// others if nodes have been restless in two steps so far. Adds a message on each pair.
+  /// Collective.
   void soften_sheets(SpringBooks &books, DiagnosticList &messages);
 
   /// Returns the state of the softness estimate, which a probe restores.
@@ -63,14 +64,17 @@ private:
   /// Whether nodes are restless in the iterations so far, by contact; false but of sheets.
   /// Collective.
   std::vector<bool> restless_sheets() const;
+  /// Whether contacts are those of sheets that other bodies may touch, too: springs between bodies
+  /// are soft beside the compression of a sheet.
+  std::vector<bool> stacked_sheets() const;
   /// Reduces penalties by whole octaves to at most `wanted` [E/h], with a message on each, and the
-  /// reason in it. Those of sheets keep the tractions at the start of the step, and their springs
-  /// the energy of the lower penalty. Returns whether there is any. Collective.
+  /// reason in it. Those of sheets keep the tractions at the start of the step. Returns whether
+  /// there is any. Collective.
   bool lower_penalties(const std::vector<double> &wanted, const std::string &reason, SpringBooks &books,
                        DiagnosticList &messages);
-  /// Reduces the penalties of sheets that pairs of bodies have, too, before the first step. Springs
-  /// between bodies are soft beside the compression of a sheet. Collective.
-  void soften_stacks(SpringBooks &books, DiagnosticList &messages);
+  /// Does the same to (T13) for the contacts chosen, all of sheets.
+  void lower_sheets(const std::vector<bool> &chosen, const std::string &reason, SpringBooks &books,
+                    DiagnosticList &messages);
   /// Returns the rules by which contacts limit their softness now.
   static std::vector<SoftnessLimit::Rule> softness_rules(const ContactSet &contacts);
   /// Returns the springs of each contact; empty if no pair limits softness. Collective.
@@ -104,6 +108,7 @@ private:
   bool may_leave_penetration_ = false;
   bool has_failed_ = false;            ///< for softness, in some step
   std::vector<bool> is_noted_;         ///< contacts of note_stiff_contacts()
+  bool has_sheets_;                    ///< whether a contact is that of a sheet; so on all ranks
   std::vector<double> restless_steps_; ///< number of steps with restless nodes, of sheets
 };
 

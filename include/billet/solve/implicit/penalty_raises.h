@@ -6,6 +6,7 @@
 #include "billet/solve/penalty_control.h"
 #include "billet/solve/penalty_watch.h"
 
+#include <functional>
 #include <vector>
 
 namespace billet {
@@ -19,6 +20,9 @@ public:
   void set(const std::size_t contact, const double energy) { of_tools_[contact] = energy; }
   /// Records a change of the energy in the springs of a contact [energy].
   void add(std::size_t contact, double change);
+  /// Calls `change`, which changes penalties at the start of the step. What springs store more then
+  /// counts as external work. Collective.
+  void change_at_start(const std::function<void()> &change);
   /// Returns warnings about penalties that are too low, after a step. Collective.
   DiagnosticList check();
   /// Returns PenaltyWatch::has_low_penalties().
