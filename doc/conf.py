@@ -33,7 +33,11 @@ copyright = "the authors of billet; LGPL 2.1 or later"
 _version = re.search(r"project\(billet VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))
 version = release = _version[1] if _version else ""
 
-extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinxarg.ext"]
+extensions = ["breathe", "myst_parser", "sphinx.ext.mathjax", "sphinxarg.ext"]
+breathe_projects = {"billet": str(HERE.parents[1] / "xml")}  # scripts/documentation makes it by Doxygen
+breathe_default_project = "billet"
+# Only a few classes have a place to link to.
+nitpick_ignore_regex = [("cpp:.*", ".*")]
 if (HERE / "references.bib").exists():
     extensions.append("sphinxcontrib.bibtex")
     bibtex_bibfiles = ["references.bib"]
@@ -171,11 +175,26 @@ def finish_body(app: Sphinx, page: str, template: str, context: dict[str, Any], 
     context["body"] = re.sub(r'(<a [^>]*>\s*)?(<img [^>]*src="([^"]*)"[^>]*>)', with_link, body)
 
 
+def divide_manual_page(app: Sphinx, tree: nodes.document, page: str) -> None:
+    """Gives a manual page the sections that readers expect: SYNOPSIS and DESCRIPTION before the options."""
+    if app.builder.name != "man":
+        return
+    whole = next(iter(tree.findall(nodes.section)))
+    usage = next(part for part in whole if isinstance(part, nodes.literal_block))
+    texts = [part for part in whole if isinstance(part, nodes.paragraph)]
+    whole.children = [part for part in whole if part is not usage and part not in texts]
+    usage = nodes.literal_block(text=re.sub(r"^ {7}|^usage: ", "", usage.astext(), flags=re.MULTILINE))
+    for name, parts in (("Description", texts), ("Synopsis", [usage])):
+        section = nodes.section("", nodes.title(text=name), *parts, ids=[name.lower()])
+        whole.insert(1, section)  # behind the title
+
+
 def setup(app: Sphinx) -> None:
     """Adds what the site needs beyond its extensions."""
     app.add_lexer("prm", SceneLexer)
     app.add_domain(TaggedMathDomain, override=True)
     app.connect("doctree-read", remove_shown_tags)
     app.connect("doctree-read", keep_percentages)
+    app.connect("doctree-resolved", divide_manual_page)
     app.connect("html-page-context", add_formulas)
     app.connect("html-page-context", finish_body)

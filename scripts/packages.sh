@@ -6,7 +6,7 @@
 #   benchmarks  compare with CalculiX, billet-trade included
 #   python      format and check the Python of the repository
 #   pictures    draw the manual's pictures with ParaView, without a display
-#   documentation  build the site of the documentation, and check its spelling
+#   documentation  build the site of the documentation, and check its spelling and looks
 #   package     make and try a package for Debian
 #
 # BILLET_SKIP_PACKAGES=1 leaves the system alone, as on a cluster with modules. DEAL_II_DIR names an
@@ -42,7 +42,7 @@ for group in "$@"; do
     pictures) packages+=(paraview python3-paraview python3-pil xvfb xauth) ;; # pvpython wants a display: xvfb-run, which wants xauth
     documentation)
       packages+=(python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex python3-sphinx-argparse
-        libjs-katex codespell doxygen python3-numpy python3-matplotlib)
+        python3-breathe libjs-katex chromium codespell doxygen python3-numpy python3-matplotlib)
       ;;
     package) packages+=(lintian mmdebstrap dpkg-dev) ;;
     *)

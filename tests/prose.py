@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: prose.py [--program BILLET] [--any-width] [FILE...]
+"""Usage: prose.py [--program BILLET] [FILE...]
        prose.py --self-check
 
 Checks the prose of the pages beside README.md, in .github/ and in doc/: no line has more than 100 columns, no
 sentence more than 25 words, no paragraph more than five sentences. Tables, code and formulas may be wider.
+Lines of manual pages (.1) have as few columns.
 
 The same holds for the comments of scenes and of their parts in prm/, materials/ and examples/. An empty
 comment ends a paragraph there; a comment at the end of a line is one. Lines without a comment may be wider.
@@ -16,12 +17,11 @@ paragraph. Directives for tools such as clang-tidy are no comments.
 
 Words are what stands between blanks, per cent and words of code within a line among them, but no operators. A
 formula counts as one word. A sentence that goes on below a formula, or in the next item of a list, counts as
-one. Tables have a head. The sentences of their cells, also of those in lists, are as short, but for tables of
-results, which have messages of the program. A semicolon ends no sentence.
+one. Tables have a head. A row of one is no prose and may be wide, but the sentences of its cells, also in
+lists, are as short. A semicolon ends no sentence. What a program printed stands in blocks of code.
 
-FILE checks some pages (.md), scenes (.prm) or sources (.h, .cc) only; with --any-width their lines may be
-wider, as those that the program makes for the site. --program checks what a program says of its parameters,
-messages and lists, too.
+FILE checks some pages (.md), scenes (.prm) or sources (.h, .cc) only, among them pages that scripts make for
+the site. --program checks what a program says of its parameters, messages and lists, too.
 """
 
 from __future__ import annotations
@@ -40,7 +40,6 @@ MAX_SENTENCES = 5
 LEFT_OUT = ("doc/site/",)
 SCENES = ("examples", "materials", "prm")
 SOURCES = ("include/**/*.h", "source/**/*.h", "source/**/*.cc")
-WITH_MESSAGES = ("doc/results/",)
 
 FENCE = re.compile(r"\s*(`{3,}|~{3,}|\$\$)")
 ITEM = re.compile(r"(\s*)(?:[-*+]|\d+[.)])\s+(.*)")
@@ -214,7 +213,7 @@ def faults_of(text: str) -> list[Fault]:
     faults = [
         Fault(number, f"{len(line)} columns")
         for number, line in prose_lines(text)
-        if len(line) > MAX_COLUMNS and " " in re.sub(r"\]\([^)]*\)", "]", line.strip())
+        if len(line) > MAX_COLUMNS and " " in re.sub(r"\]\([^)]*\)|`[^`]*`", "]", line.strip())
     ]
     before = ""
     for paragraph in paragraphs_of(text):
@@ -428,7 +427,7 @@ def check_program(program: str) -> int:
 
 def pages() -> list[str]:
     files = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / ".github").rglob("*.md"))]
-    files += sorted((ROOT / "doc").rglob("*.md"))
+    files += [*sorted((ROOT / "doc").rglob("*.md")), *sorted((ROOT / "doc").glob("*.1"))]
     names = [file.relative_to(ROOT).as_posix() for file in files if file.exists()]
     return [name for name in names if not name.startswith(LEFT_OUT)]
 
@@ -444,7 +443,7 @@ def sources() -> list[str]:
     return sorted(file.relative_to(ROOT).as_posix() for files in SOURCES for file in ROOT.glob(files))
 
 
-def check_files(names: list[str], has_any_width: bool = False) -> int:
+def check_files(names: list[str]) -> int:
     """Prints what is wrong; returns the number of errors."""
     n_errors = 0
     for name in names:
@@ -453,10 +452,11 @@ def check_files(names: list[str], has_any_width: bool = False) -> int:
             faults = faults_of_scene(text)
         elif name.endswith((".h", ".cc")):
             faults = faults_of_code(text)
+        elif name.endswith(".1"):
+            lines = enumerate(text.splitlines(), 1)
+            faults = [Fault(i, f"{len(line)} columns") for i, line in lines if len(line) > MAX_COLUMNS]
         else:
-            faults = faults_of(text) + ([] if name.startswith(WITH_MESSAGES) else faults_of_tables(text))
-        if has_any_width:
-            faults = [fault for fault in faults if not fault.what.endswith(" columns")]
+            faults = faults_of(text) + faults_of_tables(text)
         for fault in sorted(faults):
             print(f"{name}:{fault.line}: {fault.what}")
             n_errors += 1
@@ -473,6 +473,8 @@ SAMPLES: tuple[tuple[str, list[str]], ...] = (
     ("```\n" + "code " * 40 + "\n```\n", []),
     ("- " + "item " * 15 + "\n- " + "item " * 15 + "\n", []),
     ("[link](" + "x" * 120 + ")\n", []),
+    ("`" + "code " * 24 + "`,\n", []),
+    ("`" + "code " * 24 + "` and\n", ["126 columns"]),
     ("Formula\n\n$$\n" + "a " * 60 + "\n$$\n", []),
     ("- one\n\n    " + "text " * 26 + "\n", ["134 columns", "26 words"]),
     ("The law " + "is " * 14 + "to\n10. " + "Word " * 12 + "\n", []),
@@ -588,7 +590,7 @@ def main() -> int:
         n_errors += check_program(arguments[at + 1])
         del arguments[at : at + 2]
     files = [argument for argument in arguments if not argument.startswith("--")]
-    n_errors += check_files(files or pages() + scenes() + sources(), "--any-width" in arguments)
+    n_errors += check_files(files or pages() + scenes() + sources())
     if not files:
         counts = f"{len(pages())} pages, {len(scenes())} scenes and parts, {len(sources())} files of C++"
         print(f"{counts}, {n_errors} errors")

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: assemble.py TARGET [--program BILLET] [--katex FOLDER | --without-katex]
+"""Usage: assemble.py TARGET [--program BILLET] [--katex FOLDER | --plain]
 
 Writes the sources of the site to TARGET/doc: the pages of doc/, those that the program makes, and insertions.
 doc/site/insertions.py replaces lines '<!-- insert: NAME ARGUMENT... -->' of pages. Without a program
-the pages of parameters and types are those of doc/, which say how to print them.
+the pages of parameters and types are those of doc/, which say how to print them. With --plain the pages are
+for people that read them as they are, in an installation without the site.
 """
 
 from __future__ import annotations
@@ -15,12 +16,14 @@ import sys
 from pathlib import Path
 
 from insertions import Insertions
+from plain import PlainPages
 from reference import Reference
 from results import tables_of
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 from billet_tools.scene import read_scene  # noqa: E402
+from billet_tools.text import wrapped  # noqa: E402
 
 IN_NO_MENU = ("manual.md", "theory.md")  # lists of chapters, which old links lead to
 LEFT_OUT = {"site", "news"}  # folders of doc/ that are no pages
@@ -104,7 +107,7 @@ def main() -> None:
     parser.add_argument("target", type=Path)
     parser.add_argument("--program", type=Path)
     parser.add_argument("--katex", type=Path, default=Path("/usr/share/javascript/katex"))
-    parser.add_argument("--without-katex", action="store_true", help="for pages that no browser shows")
+    parser.add_argument("--plain", action="store_true", help="for people that read the pages as they are")
     options = parser.parse_args()
     target = options.target.resolve()
     site = target / "doc"
@@ -117,23 +120,27 @@ def main() -> None:
 
     kept: set[Path] = set()
     pages = copy_files(site, kept)
-    if (options.katex / "katex.min.js").exists() and not options.without_katex:
+    if not options.plain:
+        if not (options.katex / "katex.min.js").exists():
+            raise SystemExit(f"no KaTeX in {options.katex}: scripts/packages.sh documentation")
         copy_katex(options.katex, site, kept)
-    elif not options.without_katex:
-        raise SystemExit(f"no KaTeX in {options.katex}: scripts/packages.sh documentation")
 
     reference = Reference(options.program, ROOT, pages) if options.program else None
     if reference:
-        pages.update(reference.write())
+        pages.update({name: wrapped(text) for name, text in reference.write().items()})
     else:
-        pages["messages.md"] = messages_with_headings(ROOT / "doc/messages.md")
+        pages["messages.md"] = wrapped(messages_with_headings(ROOT / "doc/messages.md"))
     insertions = Insertions(ROOT, pages, reference)
+    made = {}
     for name, text in pages.items():
         if name in IN_NO_MENU and not text.startswith("---"):
             text = "---\norphan: true\n---\n" + text
         if "<!-- insert: " in text:
             text = insertions.replace(name, text)
-        write(site / name, text)
+        made[name] = text
+    plain = PlainPages(made, {file.relative_to(site).as_posix() for file in kept}) if options.plain else None
+    for name, text in made.items():
+        write(site / name, plain.write(name) if plain else text)
         kept.add(site / name)
 
     for file in sorted(site.rglob("*"), reverse=True):  # pages that are no more

@@ -1,32 +1,53 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: browser.py FOLDER
+"""Usage: browser.py FOLDER [--pictures FOLDER]
 
 Opens the pages of the site in FOLDER from the file system, at the widths of a phone and of a desktop, in
 chromium without a window. Formulas must be set and pictures shown, and nothing may be wider than its
-page. Without chromium it checks nothing.
+page. The page of the search must find the words of search_terms.py. With --pictures it keeps pictures of six
+pages at both widths, for people to look at. Without chromium it checks nothing, says so and returns 3.
 """
 
 from __future__ import annotations
 
+import argparse
 import html
+import itertools
 import json
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
+from urllib.parse import quote
+
+from search_terms import TERMS
 
 WIDTHS = (390, 1280)  # pixels, of a common phone and a small desktop
-SECONDS = 170
+SECONDS = 900  # of one look, on a machine that may be busy
+LACKING = 3  # exit code
+SHOWN = (
+    "index.html",
+    "start.html",
+    "scenes/index.html",
+    "theory/contact_tools.html",
+    "reference/parameters/contact-pairs.html",
+    "results/extremes.html",
+)
+HEIGHT = 1600  # of pictures, pixels
 # Opens one page after the other in a frame. What scrolls within the page may be wider than it, and what furo
 # sets beside the text, such as links of headings, by a few pixels.
-LOOK = """<!DOCTYPE html><pre id="faults"></pre><script>
+LOOK = """<!DOCTYPE html><pre id="found"></pre><script>
 const faults = [];
+let formulas = 0;
 function look(page, view) {
   const tree = view.document, all = list => [...list];
   const say = (what, part) => faults.push(page + ": " + what + " '" + part.trim().slice(0, 60) + "'");
-  const unset = all(tree.querySelectorAll(".math")).filter(part => !part.querySelector(".katex"));
+  const maths = all(tree.querySelectorAll(".math"));
+  const unset = maths.filter(part => !part.querySelector(".katex"));
+  formulas += maths.length - unset.length;
   unset.forEach(part => say("formula is not set", part.textContent));
   all(tree.querySelectorAll(".katex-error")).forEach(part => say("formula is wrong", part.textContent));
   all(tree.images).filter(one => one.complete && !one.naturalWidth)
@@ -53,58 +74,100 @@ async function open(page) {
 }
 onload = async () => {
   for (const page of PAGES) await open(page);
-  document.getElementById("faults").textContent = JSON.stringify(faults);
+  document.getElementById("found").textContent = JSON.stringify({faults, formulas});
 };
 </script>"""
+# A window of chromium is no narrower than 500 pixels, but a frame is.
+FRAME = """<!DOCTYPE html><body style="margin: 0"><iframe style="border: 0; height: HEIGHTpx; width: WIDTHpx"
+ src="PAGE"></iframe>"""
 
 
-def faults_of(folder: Path, pages: list[str], width: int, chromium: str) -> list[str]:
-    """Returns what is wrong on pages at a width [pixels]."""
-    text = (
-        LOOK.replace("WIDTH", str(width))
-        .replace("FOLDER", folder.as_uri())
-        .replace("PAGES", json.dumps(pages))
-    )
-    with tempfile.TemporaryDirectory() as scratch:
-        (Path(scratch) / "look.html").write_text(text, encoding="utf-8")
-        shown = subprocess.run(
-            [
-                chromium,
-                "--headless",
-                "--no-sandbox",
-                "--disable-gpu",
-                "--allow-file-access-from-files",
-                f"--user-data-dir={scratch}/profile",
-                "--virtual-time-budget=1000000",
-                "--dump-dom",
-                (Path(scratch) / "look.html").as_uri(),
-            ],
-            capture_output=True,
-            text=True,
-            timeout=SECONDS,
-            check=False,
-        ).stdout
-    found = re.search(r'<pre id="faults">(\[.*?\])</pre>', shown, re.DOTALL)
-    if not found:
-        raise SystemExit("browser.py: chromium did not come to the end of the pages")
-    return list(json.loads(html.unescape(found[1])))
+class Browser:
+    """Chromium without a window."""
+
+    def __init__(self, chromium: str, site: Path) -> None:
+        self._chromium = chromium
+        self.site = site
+
+    def shown(self, address: str, *options: str) -> str:
+        """Returns what a page is when its scripts have ended."""
+        with tempfile.TemporaryDirectory() as scratch:
+            command = [self._chromium, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"]
+            command += [f"--user-data-dir={scratch}", "--virtual-time-budget=1000000", *options, address]
+            ended = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS, check=False)
+        return ended.stdout
+
+    def shown_text(self, text: str, *options: str) -> str:
+        """Returns what the text of a page becomes, which may look into pages of the site."""
+        with tempfile.TemporaryDirectory() as scratch:
+            page = Path(scratch) / "page.html"
+            page.write_text(text, encoding="utf-8")
+            return self.shown(page.as_uri(), "--allow-file-access-from-files", *options)
+
+    def look(self, pages: list[str], width: int) -> dict[str, Any]:
+        """Returns what is wrong on pages at a width [pixels], and the number of formulas that are set."""
+        text = LOOK.replace("WIDTH", str(width)).replace("FOLDER", self.site.as_uri())
+        shown = self.shown_text(text.replace("PAGES", json.dumps(pages)), "--dump-dom")
+        found = re.search(r'<pre id="found">(\{.*?\})</pre>', shown, re.DOTALL)
+        if not found:
+            raise SystemExit("browser.py: chromium did not come to the end of the pages")
+        return dict(json.loads(html.unescape(found[1])))
+
+    def hits(self, words: str) -> list[str]:
+        """Returns the titles of the pages that the page of the search lists."""
+        shown = self.shown(f"{(self.site / 'search.html').as_uri()}?q={quote(words)}", "--dump-dom")
+        found = re.search(r'<ul class="search">(.*?)</ul>', shown, re.DOTALL)
+        titles = re.findall(r"<li[^>]*>\s*<a [^>]*>(.*?)</a>", found[1] if found else "", re.DOTALL)
+        return [html.unescape(title) for title in titles]
+
+    def keep_picture(self, page: str, width: int, file: Path) -> None:
+        """Writes a picture of the upper part of a page at a width [pixels]."""
+        text = FRAME.replace("PAGE", (self.site / page).as_uri()).replace("HEIGHT", str(HEIGHT))
+        options = (f"--screenshot={file}", f"--window-size={max(width, 500)},{HEIGHT}")
+        self.shown_text(text.replace("WIDTH", str(width)), *options)
+        if not file.exists():
+            raise SystemExit(f"browser.py: chromium did not draw {file}")
+
+
+def check(browser: Browser, pages: list[str]) -> int:
+    """Prints what is wrong; returns the number of faults."""
+    n_faults = 0
+    with ThreadPoolExecutor(2) as pool:
+        looks = pool.map(lambda width: browser.look(pages, width), WIDTHS)
+        searches = pool.map(browser.hits, TERMS)
+    for width, found in zip(WIDTHS, looks):
+        faults = found["faults"] + ([] if found["formulas"] else ["no page shows a formula"])
+        counts = f"{len(pages)} pages at {width} pixels, {found['formulas']} formulas, {len(faults)} faults"
+        print("\n".join([*faults, counts]))
+        n_faults += len(faults)
+    for words, titles in zip(TERMS, searches):
+        print(f"search for '{words}': {len(titles)} pages" + (f", first '{titles[0]}'" if titles else ""))
+        n_faults += not titles
+    return n_faults
 
 
 def main() -> int:
     """Returns the exit code."""
-    folder = Path(sys.argv[1]).resolve()
+    parser = argparse.ArgumentParser(description="Looks at the pages of the site in chromium.")
+    parser.add_argument("site", type=Path)
+    parser.add_argument("--pictures", type=Path, help="write pictures of six pages to this folder")
+    options = parser.parse_args()
+    site = options.site.resolve()
     chromium = shutil.which("chromium") or shutil.which("chromium-browser")
     if not chromium:
-        print("No chromium: pages are not looked at")
-        return 0
-    paths = (path.relative_to(folder) for path in sorted(folder.rglob("*.html")))
+        print("browser.py: no chromium (scripts/packages.sh documentation)", file=sys.stderr)
+        return LACKING
+    browser = Browser(chromium, site)
+    paths = (path.relative_to(site) for path in sorted(site.rglob("*.html")))
     pages = [path.as_posix() for path in paths if path.parts[:2] != ("reference", "cpp")]
-    n_faults = 0
-    for width in WIDTHS:
-        faults = faults_of(folder, pages, width, chromium)
-        print("\n".join([*faults, f"{len(pages)} pages at {width} pixels, {len(faults)} faults"]))
-        n_faults += len(faults)
-    return 1 if n_faults else 0
+    if options.pictures:
+        options.pictures.mkdir(parents=True, exist_ok=True)
+        for page, width in itertools.product(SHOWN, WIDTHS):
+            if page in pages:  # without the program some are not there
+                name = f"{page.removesuffix('.html').replace('/', '_')}_{width}.png"
+                browser.keep_picture(page, width, options.pictures.resolve() / name)
+        return 0
+    return 1 if check(browser, pages) else 0
 
 
 if __name__ == "__main__":

@@ -189,13 +189,13 @@ class Insertions:
         raise SystemExit("no table of safe ranges in results/extremes.md")
 
     def _insert_changes(self, page: str) -> str:
-        """Shows CHANGELOG.md, and the news that become its lines at the next release, latest first."""
+        """Shows the news that become lines of CHANGELOG.md at the next release, latest first, and these."""
         news = []
         for file in sorted((self._root / "doc/news").glob("20*.md"), reverse=True):
             text = re.sub(r"^#", "###", file.read_text(encoding="utf-8"), flags=re.MULTILINE)
             news.append(text.strip().replace("](../", "]("))
-        head = "## News since the last line of this list"
-        return "\n\n".join([self._from_root("CHANGELOG.md").rstrip(), head, *news])
+        head, *versions = re.split(r"^(?=## )", self._from_root("CHANGELOG.md"), flags=re.MULTILINE)
+        return "\n\n".join([head.strip(), "## Unreleased", *news, "".join(versions)])
 
     def _insert_contributing(self, page: str) -> str:
         """Shows CONTRIBUTING.md, and CODE_OF_CONDUCT.md as its last chapter."""

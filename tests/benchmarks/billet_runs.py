@@ -20,7 +20,7 @@ from billet_tools.output import read_rows  # noqa: E402
 from billet_tools.program import Measured, command_of  # noqa: E402
 from billet_tools.records import read_records  # noqa: E402
 from billet_tools.scene import Changes, read_scene, variant  # noqa: E402
-from billet_tools.text import number, percent, table, wrapped  # noqa: E402, F401  for the benchmarks
+from billet_tools.text import number, percent, quoted, table, wrapped  # noqa: E402, F401  for the benchmarks
 
 PROGRAM = os.environ.get("BILLET", str(ROOT / "build/release/bin/billet"))
 SCENE = ROOT / "prm/billet_upsetting.prm"

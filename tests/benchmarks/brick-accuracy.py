@@ -1099,7 +1099,7 @@ CLAIMS = (
     ("Wipe bending, two bricks, 0.5 long: 3 %", "wipe 0.5", 0.03),
     ("Wipe bending, two bricks, 0.25 long: 3 %", "wipe 0.25", 0.03),
     ("Period in bending, one and two bricks: 3 %", "bending", 0.03),
-    ("Period in torsion, one and two bricks: 15 %, or told", "torsion", 0.15),
+    ("Period in torsion, one and two bricks: 15 %, or a warning", "torsion", 0.15),
 )
 claims = [
     [

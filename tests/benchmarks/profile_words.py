@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from typing import Mapping, NamedTuple, Sequence
 
-from billet_runs import number, percent, table
+from billet_runs import number, percent, quoted, table
 
 PROFILES = ("fast", "balanced", "accurate")
 LIMITS = {"fast": 0.05, "balanced": 0.02, "accurate": 0.002}  # maximum errors that are wanted
@@ -131,7 +131,7 @@ def without_errors(reasons: Mapping[str, str]) -> str:
     """{scene: why}: scenes whose reference failed, and what was said."""
     return (
         "No error is given where the reference itself comes to no end:\n\n"
-        + table(["scene", "what the program says"], reasons.items())
+        + quoted((f"`{scene}`", reason) for scene, reason in reasons.items())
         if reasons
         else ""
     )

@@ -153,7 +153,7 @@ class Profiles(unittest.TestCase):
 
     def test_reasons(self) -> None:
         self.assertEqual(without_errors({}), "")
-        self.assertIn("| a | given up |", without_errors({"a": "given up"}))
+        self.assertIn("- `a`:\n\n  ```text\n  given up\n", without_errors({"a": "given up"}))
         self.assertEqual(with_looser({}), "")
         self.assertIn("| a | 0.0001 |", with_looser({"a": 1e-4}))
 

@@ -13,7 +13,7 @@ from billet_tools.trade import picture, reference as reference_module, report, r
 from billet_tools.trade.outputs import Output
 from billet_tools.trade.reference import mesh_of
 from billet_tools.scene import Changes, Scene
-from billet_tools.text import first_sentence, wrapped
+from billet_tools.text import first_sentence, quoted, shortened, wrapped
 
 DEFAULTS = "subsection Bodies\nsubsection (name of a body)\nsubsection Mesh\nset Layers = 4\nend\nend\nend\n"
 SCENE = Scene("subsection Bodies\nsubsection bar\nsubsection Mesh\nset Layers = 4\nend\nend\nend\n", DEFAULTS)
@@ -223,6 +223,18 @@ class Judging(unittest.TestCase):
         self.assertEqual(first_sentence(""), "")
         self.assertEqual(first_sentence("inside out."), "inside out")
         self.assertLessEqual(len(first_sentence("much " * 200)), 400)
+
+    def test_cells_are_short(self) -> None:
+        self.assertEqual(shortened("one two, three"), "one two, three")
+        self.assertEqual(shortened("one two, three", 2), "one two ...")
+        self.assertEqual(shortened("one two three, four five", 4), "one two three ...")
+        self.assertEqual(len(shortened("much " * 200).split()), 25)
+
+    def test_messages_are_quoted(self) -> None:
+        page = quoted([("one scene", "word " * 40), ("two scenes", "said")])
+        self.assertLessEqual(max(map(len, page.splitlines())), 100)
+        self.assertIn("- two scenes:\n\n  ```text\n  said\n  ```", page)
+        self.assertEqual(wrapped(page), page)
 
     def test_lines_end_in_time(self) -> None:
         self.assertEqual(wrapped("one two\nthree", 9), "one two\nthree")

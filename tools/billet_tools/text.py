@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import re
+import textwrap
 from typing import Iterable, Sequence
 
 
@@ -88,6 +89,32 @@ def wrapped(page: str, columns: int = 100) -> str:
 def items(sentences: Iterable[str]) -> str:
     """Returns a list in Markdown."""
     return "\n".join(f"- {sentence}" for sentence in sentences)
+
+
+def quoted(messages: Iterable[tuple[str, str]], columns: int = 100) -> str:
+    """Returns a list of messages of a program as it printed them, each below the words that introduce it."""
+    return "\n\n".join(
+        f"- {words}:\n\n  ```text\n"
+        + textwrap.fill(
+            message,
+            columns,
+            initial_indent="  ",
+            subsequent_indent="  ",
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+        + "\n  ```"
+        for words, message in messages
+    )
+
+
+def shortened(text: str, words: int = 24) -> str:
+    """Returns a text with so many words at most, if possible up to a comma or the like."""
+    first = text.split()[:words]
+    if len(text.split()) <= words:
+        return text
+    ends = [i for i, word in enumerate(first) if word[-1] in ",;:" and 2 * i >= words]
+    return " ".join(first[: ends[-1] + 1] if ends else first).rstrip(",;:") + " ..."
 
 
 def written_by(command: str) -> str:

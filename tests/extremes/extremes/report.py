@@ -14,7 +14,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from billet_tools.records import Record
-from billet_tools.text import table, wrapped
+from billet_tools.text import quoted, table, wrapped
 
 from .invariants import NUDGE, SYMMETRIES
 from .runner import AT_MOST, DEEP, OUTCOMES, PATIENCE
@@ -570,9 +570,10 @@ def write(records: Records, folder: Path, planned: int = 0, program: str = "", b
         if found:
             parts += [
                 f"## {title}",
-                table(
-                    ["scenes", "said (numbers left out)", "such as"],
-                    [[len(n), words.replace("|", "\\|"), examples(n)] for words, n in found[:25]],
+                "Numbers and names are left out of what the program says.",
+                quoted(
+                    (f"{len(n)} scene{'s' * (len(n) > 1)}, such as {examples(n)}", words)
+                    for words, n in found[:25]
                 ),
             ]
     bad = [r for r in records if r["outcome"] in ("wrong", "crashed", "hung")]
@@ -624,12 +625,18 @@ PICTURES = {
 }
 
 
+LEGEND = (
+    "A colour is an outcome of the list above: *told* is a scene that is right, with a warning of the energy"
+    " that penetration takes. A number is that of iterations a step."
+)
+
+
 def draw_all(records: Records, folder: Path) -> list[str]:
     said = []
     for name, (pair, x, y, bases) in PICTURES.items():
         if draw(records, folder / f"extremes_{name}.png", pair, x, y, bases):
             said.append(f"![Outcome over {name.replace('_', ' and ')}](../images/extremes_{name}.png)")
-    return said
+    return [LEGEND, *said] if said else []
 
 
 def draw(

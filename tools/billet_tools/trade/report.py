@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Iterable, Mapping, Optional, Sequence
 
 from ..scene import Changes, Scene
-from ..text import big, first_sentence, items, number, percent, table, written_by
+from ..text import big, first_sentence, items, number, percent, shortened, table, written_by
 from . import measure
 from .outputs import Force, Output
 from .paste import HOW, lines_to_paste
@@ -367,7 +367,7 @@ class Sweep:
     def failed(self) -> list[list[str]]:
         """Label, status and reason of runs that failed."""
         return [
-            [f"`{p.label}`", p.status, first_sentence(p.reason) if p.reason else ""]
+            [f"`{p.label}`", p.status, shortened(first_sentence(p.reason)) if p.reason else ""]
             for p in self.points
             if not p.is_good and not p.is_base
         ]
