@@ -24,8 +24,8 @@ public:
   ContactSprings compute_springs() const override;
   void scale(double normal, double tangential) override;
   void scale_under_load(double normal, double tangential) override;
-  /// Reduces penalties and keeps tractions: multipliers take over what springs lose. At the start of
-  /// a step, after update().
+  /// Reduces penalties and keeps tractions: multipliers take over what springs lose. At the start
+  /// of a step, after update().
   void lower_under_load(double normal, double tangential);
   double stiffening() const override { return stiffening_; }
   double tangential_stiffening() const override { return tangential_stiffening_; }

@@ -28,11 +28,11 @@ public:
   /// reported.
   void may_leave_penetration() { may_leave_penetration_ = true; }
   /// Reduces the penalties of augmented contacts that exceed 10 E/h to that value after a failure,
-  /// with a message on each. If none does, those of sheets fall to (T13), unless the iterations were
-  /// merely slow. Returns false if there is none. Collective.
+  /// with a message on each. If none does, those of sheets fall to (T13), unless the iterations
+  /// were merely slow. Returns false if there is none. Collective.
   bool soften_contacts(const NewtonReport &failed, SpringBooks &books, DiagnosticList &messages);
-  /// Reduces the penalties of sheets to (T13), before a step: of stacks before the first one, of
-  /// others if nodes have been restless in two steps so far. Adds a message on each pair.
+  /// Reduces the penalties of sheets to (T13), before a step. Those of stacks fall before the first
+  /// one, others if nodes have been restless in two steps so far. Adds a message on each pair.
   /// Collective.
   void soften_sheets(SpringBooks &books, DiagnosticList &messages);
 
