@@ -126,8 +126,8 @@ EXPLICIT_STEPS = (
     "explicit: penalty, resolution and safety factor shorten all steps, whether contact needs it or not"
 )
 SHEETS = (
-    "with friction, iterations of accurate fail at its tight tolerances, and the penalty of the sheet falls;"
-    " `Penetration tolerance` = 1e-3 keeps its aim"
+    "with friction, iterations of accurate fail at its tight tolerances: penalties fall, and augmentation may"
+    " stop early; `Penetration tolerance` = 1e-3 keeps its aim"
 )
 WHY = {
     "billet_deformable_dies": "all errors are below 0.1 %, and accurate takes short steps nevertheless",
