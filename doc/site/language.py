@@ -83,7 +83,7 @@ def pages_of(commit: str) -> dict[str, str]:
 
 
 def pages_of_today() -> dict[str, str]:
-    return {name: (ROOT / name).read_text(encoding="utf-8") for name in prose.pages()}
+    return {name: (ROOT / name).read_text(encoding="utf-8") for name in prose.pages() if is_page(name)}
 
 
 def table(columns: Iterable[list[str]]) -> str:
