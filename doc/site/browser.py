@@ -93,6 +93,7 @@ class Browser:
         """Returns what a page is when its scripts have ended."""
         with tempfile.TemporaryDirectory() as scratch:
             command = [self._chromium, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"]
+            command.append("--disable-dev-shm-usage")  # small in containers
             command += [f"--user-data-dir={scratch}", "--virtual-time-budget=1000000", *options, address]
             ended = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS, check=False)
         return ended.stdout
