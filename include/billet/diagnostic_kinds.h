@@ -259,7 +259,8 @@ inline const DiagnosticKind penalty_too_high("penalty-too-high", Severity::warni
 
 inline const DiagnosticKind penalty_reduced(
     "penalty-reduced", Severity::note,
-    "If Newton's method fails with a penalty above 10 E/h, it falls towards 10 E/h, and augmentation enforces "
+    "If Newton's method fails with a penalty above 10 E/h, it falls towards 10 E/h, and augmentation "
+    "enforces "
     "the constraint. That of a thin sheet on a tool in statics falls to 0.04 E/h. It does so if nodes are "
     "restless in two steps, if a step fails, or at the start if other bodies may touch the sheet. The result "
     "is the same within its error.",
