@@ -57,6 +57,7 @@ myst_heading_anchors = 6
 myst_dmath_double_inline = True
 suppress_warnings = ["myst.header"]  # pages of results begin at any level
 
+html_use_index = False  # of C++ alone; pages have the search
 html_theme = "furo"
 html_title = "billet"
 html_static_path = ["_static"]
