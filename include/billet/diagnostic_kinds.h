@@ -260,10 +260,9 @@ inline const DiagnosticKind penalty_too_high("penalty-too-high", Severity::warni
 inline const DiagnosticKind penalty_reduced(
     "penalty-reduced", Severity::note,
     "If Newton's method fails with a penalty above 10 E/h, it falls towards 10 E/h, and augmentation "
-    "enforces "
-    "the constraint. That of a thin sheet on a tool in statics falls to 0.04 E/h. It does so if nodes are "
-    "restless in two steps, if a step fails, or at the start if other bodies may touch the sheet. The result "
-    "is the same within its error.",
+    "enforces the constraint. That of a thin sheet on a tool in statics falls to 0.04 E/h. It does so if "
+    "nodes are restless in two steps, if a step fails, or at the start if other bodies may touch the sheet. "
+    "The result is the same within its error.",
     "If the lower penalty helped, set 'Normal penalty' to it and 'Penetration tolerance' to 1e-3, which "
     "saves the failed attempts");
 
