@@ -37,17 +37,16 @@ SHOWN = (
     "results/extremes.html",
 )
 HEIGHT = 1600  # of pictures, pixels
-# Opens one page after the other in a frame. What scrolls within the page may be wider than it, and what furo
-# sets beside the text, such as links of headings, by a few pixels.
+# Opens one page after the other in a frame, which then takes each width. What scrolls within the page may be
+# wider than it, and what furo sets beside the text, such as links of headings, by a few pixels.
 LOOK = """<!DOCTYPE html><pre id="found"></pre><script>
-const faults = [];
-let formulas = 0;
-function look(page, view) {
+const widths = WIDTHS, found = widths.map(() => ({faults: [], formulas: 0}));
+function look(page, view, here) {
   const tree = view.document, all = list => [...list];
-  const say = (what, part) => faults.push(page + ": " + what + " '" + part.trim().slice(0, 60) + "'");
+  const say = (what, part) => here.faults.push(page + ": " + what + " '" + part.trim().slice(0, 60) + "'");
   const maths = all(tree.querySelectorAll(".math"));
   const unset = maths.filter(part => !part.querySelector(".katex"));
-  formulas += maths.length - unset.length;
+  here.formulas += maths.length - unset.length;
   unset.forEach(part => say("formula is not set", part.textContent));
   all(tree.querySelectorAll(".katex-error")).forEach(part => say("formula is wrong", part.textContent));
   all(tree.images).filter(one => one.complete && !one.naturalWidth)
@@ -63,18 +62,22 @@ function look(page, view) {
 }
 async function open(page) {
   const frame = document.createElement("iframe");
-  frame.style = "border: 0; height: 900px; width: WIDTHpx";
+  frame.style = "border: 0; height: 900px";
+  frame.style.width = widths[0] + "px";
   const loaded = new Promise(done => frame.onload = done);
   frame.src = "FOLDER/" + page;
   document.body.append(frame);
   await loaded;
-  await new Promise(done => setTimeout(done, 100));
-  look(page, frame.contentWindow);
+  for (let i = 0; i < widths.length; ++i) {
+    frame.style.width = widths[i] + "px";
+    await new Promise(done => setTimeout(done, 100));
+    look(page, frame.contentWindow, found[i]);
+  }
   frame.remove();
 }
 onload = async () => {
   for (const page of PAGES) await open(page);
-  document.getElementById("found").textContent = JSON.stringify({faults, formulas});
+  document.getElementById("found").textContent = JSON.stringify(found);
 };
 </script>"""
 # A window of chromium is no narrower than 500 pixels, but a frame is.
@@ -105,14 +108,14 @@ class Browser:
             page.write_text(text, encoding="utf-8")
             return self.shown(page.as_uri(), "--allow-file-access-from-files", *options)
 
-    def look(self, pages: list[str], width: int) -> dict[str, Any]:
-        """Returns what is wrong on pages at a width [pixels], and the number of formulas that are set."""
-        text = LOOK.replace("WIDTH", str(width)).replace("FOLDER", self.site.as_uri())
+    def look(self, pages: list[str]) -> list[dict[str, Any]]:
+        """Returns for each width what is wrong on pages, and the number of formulas that are set."""
+        text = LOOK.replace("WIDTHS", json.dumps(WIDTHS)).replace("FOLDER", self.site.as_uri())
         shown = self.shown_text(text.replace("PAGES", json.dumps(pages)), "--dump-dom")
-        found = re.search(r'<pre id="found">(\{.*?\})</pre>', shown, re.DOTALL)
+        found = re.search(r'<pre id="found">(\[.*?\])</pre>', shown, re.DOTALL)
         if not found:
             raise SystemExit("browser.py: chromium did not come to the end of the pages")
-        return dict(json.loads(html.unescape(found[1])))
+        return list(json.loads(html.unescape(found[1])))
 
     def hits(self, words: str) -> list[str]:
         """Returns the titles of the pages that the page of the search lists."""
@@ -134,11 +137,13 @@ def check(browser: Browser, pages: list[str]) -> int:
     """Prints what is wrong; returns the number of faults."""
     n_faults = 0
     with ThreadPoolExecutor(2) as pool:
-        looks = pool.map(lambda width: browser.look(pages, width), WIDTHS)
+        halves = pool.map(browser.look, (pages[::2], pages[1::2]))
         searches = pool.map(browser.hits, TERMS)
-    for width, found in zip(WIDTHS, looks):
-        faults = found["faults"] + ([] if found["formulas"] else ["no page shows a formula"])
-        counts = f"{len(pages)} pages at {width} pixels, {found['formulas']} formulas, {len(faults)} faults"
+    for width, *looks in zip(WIDTHS, *halves):
+        faults = [fault for look in looks for fault in look["faults"]]
+        formulas = sum(look["formulas"] for look in looks)
+        faults += [] if formulas else ["no page shows a formula"]
+        counts = f"{len(pages)} pages at {width} pixels, {formulas} formulas, {len(faults)} faults"
         print("\n".join([*faults, counts]))
         n_faults += len(faults)
     for words, titles in zip(TERMS, searches):
