@@ -96,7 +96,7 @@ void print_help(std::ostream &stream) {
          << place_of({"share/billet/prm/billet_upsetting.prm", "prm/billet_upsetting.prm"})
          << " and others beside it\nManual:          " << find_manual()
          << "\nbillet-trade:    measures accuracy against cost of a scene's parameters; see 'billet-trade "
-            "--help'\n";
+            "--help'\nbillet-fit:      fits materials to measured curves; see 'billet-fit --help'\n";
 }
 
 /// Prints where the manual is. In a graphical session the desktop's program for such files shows

@@ -216,7 +216,7 @@ inline const DiagnosticKind uneven_start_gaps(
 
 inline const DiagnosticKind
     tangential_penalty_too_low("tangential-penalty-too-low", Severity::warning,
-                               "The tangential penalty is too low beside the stiffness of the bodies. "
+                               "The tangential penalty is too low for the stiffness of the bodies. "
                                "Friction forces while sticking are too small by more than 3 %.",
                                "Increase 'Tangential penalty', or leave it out: it then equals the normal "
                                "penalty, and rises in slow motion. If it is left out, increase 'Normal "
@@ -261,7 +261,7 @@ inline const DiagnosticKind penalty_reduced(
     "penalty-reduced", Severity::note,
     "If Newton's method fails with a penalty above 10 E/h, it falls towards 10 E/h, and augmentation "
     "enforces the constraint. That of a thin sheet on a tool in statics falls to 0.04 E/h. It does so if "
-    "nodes are restless in two steps, if a step fails, or at the start if other bodies may touch the sheet. "
+    "nodes chatter in two steps, if a step fails, or at the start if other bodies may touch the sheet. "
     "The result is the same within its error.",
     "If the lower penalty helped, set 'Normal penalty' to it and 'Penetration tolerance' to 1e-3, which "
     "saves the failed attempts");
@@ -275,7 +275,7 @@ inline const DiagnosticKind
 
 inline const DiagnosticKind
     contact_dissipates("contact-dissipates", Severity::warning,
-                       "Contact removes much energy beside friction, because the time steps do not resolve "
+                       "Contact removes much energy besides friction, because the time steps do not resolve "
                        "how it opens and closes. The message names the cause.",
                        "If bodies should rebound, reduce 'Error tolerance', 'Maximum step' or the penalty");
 
@@ -290,7 +290,8 @@ inline const DiagnosticKind bulk_viscosity(
     "bulk-viscosity", Severity::note,
     "The bulk viscosity of explicit dynamics dissipates more than 5 % of the maximum energy. It "
     "spreads shocks, and damps waves that few elements resolve.",
-    "If bodies should rebound, or waves go on, use smaller elements, or reduce 'Linear bulk viscosity'. The "
+    "If bodies should rebound, or waves persist, use smaller elements, or reduce 'Linear bulk viscosity'. "
+    "The "
     "energies show whether that makes them ring");
 
 inline const DiagnosticKind

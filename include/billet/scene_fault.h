@@ -9,7 +9,7 @@
 
 namespace billet {
 
-/// What an error in a scene file is about, as data. The search for further errors
+/// Subject of an error in a scene file, as data. The search for further errors
 /// (run/all_errors.h) decides on this, never on the words of the message.
 struct SceneFault {
   enum class Kind {

@@ -45,7 +45,7 @@ bool ForceChoice::update(const std::vector<Load> &loads) {
     return std::any_of(shown_.begin(), shown_.end(),
                        [load](const Shown &shown) { return shown.load == load; });
   };
-  // What is shown stays before what is a little larger.
+  // A load that is shown stays before one that is a little larger.
   const auto rank = [&](const std::size_t load) {
     return is_shown(load) ? Factors::larger * size(load) : size(load);
   };

@@ -391,7 +391,7 @@ void ProbeReader::place_thickness(Placed &placed) const {
   const auto &point = std::get<ProbedThickness>(placed.probe().where).point;
   if (!point)
     return;
-  // Of all faces the nearest stays, with its point that is nearest.
+  // The nearest of all faces stays, with its nearest point.
   ProbeRows rows(1);
   for (ProbedFace &face : placed.faces) {
     const FacetCorners corners = undeformed_corners(face.facet);

@@ -45,7 +45,7 @@ std::size_t count_uniform_directions(const std::vector<parameters::SymmetryPlane
   return n;
 }
 
-/// How the mesh of a body changes from level to level.
+/// Changes of the mesh of a body from level to level.
 class MeshFamily {
 public:
   explicit MeshFamily(const parameters::Body &body)

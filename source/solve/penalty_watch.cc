@@ -16,8 +16,8 @@ struct Limits {
   /// Penetration that is too deep [facet sizes]: deeper nodes are visible in field output and
   /// affect areas.
   static constexpr double deep = 0.1;
-  /// Penetration over the largest displacement, or energy of springs over all work: a fifth of what
-  /// bodies would bear.
+  /// Penetration over the largest displacement, or energy of springs over all work. From this part
+  /// on, springs change the result visibly.
   static constexpr double much_taken = 0.2;
   /// Penetration below which these parts are irrelevant, in slow and in sudden motion [facet
   /// sizes].

@@ -57,7 +57,7 @@ struct TangentialIncrement {
   double rate = 0.;
 };
 
-/// How the tangents of a kind are computed.
+/// Method by which the tangents of a kind are computed.
 enum class TangentForm {
   numerical, ///< by central differences
   exact,     ///< derivatives of everything that the forces depend on

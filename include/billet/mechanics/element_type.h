@@ -75,7 +75,7 @@ private:
   const ElementKind *kind_;
 };
 
-/// What a scene chooses of the elements of a body.
+/// Elements that a scene chooses for a body.
 struct ElementChoice {
   BrickElement type = BrickElement::assumed_strain;
   /// Number through the thickness: one of all_points_through.

@@ -23,7 +23,7 @@ struct BodyMesh {
   bool is_resolved = true; ///< whether that sees all: what varies in single elements, and contact
 };
 
-/// What is said of a run that has reached its end.
+/// Messages and folder of a run that has reached its end.
 struct Verdict {
   DiagnosticList messages;
   std::string folder; ///< to which its results are moved afterwards; empty: they stay

@@ -14,8 +14,8 @@ namespace billet {
 /// It follows from the change by the last augmentation; (L7) of doc/theory.md.
 class SoftnessLimit {
 public:
-  /// What limits the softness of a pair: nothing, both directions, or, for sheets, the normal one
-  /// alone.
+  /// Limit of a pair: none, or one of both directions. That of sheets takes the stiffness of the
+  /// bodies from all augmentations that would follow.
   enum class Rule { none, general, sheet };
   explicit SoftnessLimit(const std::vector<Rule> &rules);
 

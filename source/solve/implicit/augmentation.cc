@@ -88,8 +88,8 @@ struct Augmentation::Series {
   std::vector<double> before; ///< demands before the last augmentation
   /// Factors of stiffness by all augmentations, and parts of the forces added by the last.
   std::vector<double> stiffer, added;
-  /// Of sheets: change of the normal force by the last augmentation over the force that springs
-  /// held; else 1
+  /// Change of the normal force of a sheet by the last augmentation, over the force that springs
+  /// held; 1 for others
   std::vector<double> granted;
   std::unique_ptr<Vector> soft; ///< the state from which augmentations are for softness alone
   std::vector<double> soft_offsets;
@@ -204,6 +204,7 @@ bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std:
     if (!(factor < 1.))
       continue;
     has_lowered = true;
+    softness_.forget(i);
     if (wanted[i] < enough_penalty)
       of_sheets[i] = factor;
     else
@@ -220,11 +221,9 @@ bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std:
   if (std::any_of(of_sheets.begin(), of_sheets.end(), [](const double factor) { return factor < 1.; }))
     books.change_at_start([&] {
       for (std::size_t i = 0; i < contacts.of_tools().size(); ++i)
-        if (of_sheets[i] < 1.) {
+        if (of_sheets[i] < 1.)
           contacts.of_tools()[i].penalties().lower_under_load(
               of_sheets[i], contacts[i].settings().input->penalty.is_tangential_given ? 1. : of_sheets[i]);
-          softness_.forget(i);
-        }
     });
   else if (has_lowered)
     problem_.scales().spring_round_off = contacts.find_spring_round_off();

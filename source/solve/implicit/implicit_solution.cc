@@ -197,7 +197,7 @@ ImplicitSolution::Probe ImplicitSolution::probe(const double t, const double pre
 
 void ImplicitSolution::commit(const double t, NewtonReport &report) {
   const double t_n = problem_.state().time, drift_n = problem_.state().energies.drift();
-  // Of the trial state and the last residual:
+  // These use the trial state and the last residual:
   reactions_.start();
   append(report.diagnostics, guards_.commit(t, report));
   penetration_ = parts_.contacts().find_penetration();
@@ -213,11 +213,11 @@ void ImplicitSolution::commit(const double t, NewtonReport &report) {
   ledger.elastic = energies.elastic;
   ledger.plastic = energies.plastic;
   ledger.hourglass = energies.hourglass;
-  // What a finer mesh loses until it is in balance is not work of the model.
+  // Work that a finer mesh loses until it is in balance is not work of the model.
   if (parts_.released().are_of_refinement() && parts_.released().left(t_n) > 0.)
     ledger.initial += drift_n - ledger.drift();
 
-  // What changes between steps:
+  // The rest changes between steps:
   rules_->close_step(t);
   if (!attempt_.stopping().empty())
     rules_->predictor().lose_pace();

@@ -17,16 +17,16 @@ public:
   /// Whether steps to t may be cut.
   bool may_be_cut(double t) const;
 
-  // Each returns a failure of the step if ...
-  /// ... nodes have passed through a tool that is thinner than their facets;
+  // Each returns a failure of the step in the case that it names.
+  /// Nodes have passed through a tool that is thinner than their facets.
   std::optional<StepFailure> judge_thin_tools() const;
-  /// ... nodes pass through anything between the start of the step and the trial state;
+  /// Nodes pass through anything between the start of the step and the trial state.
   std::optional<StepFailure> judge_path(bool is_thorough);
-  /// ... a tool in contact with friction rotates so far in the step that slip has no direction;
+  /// A tool in contact with friction rotates so far in the step that slip has no direction.
   std::optional<StepFailure> judge_turns(double t) const;
-  /// ... a prescribed motion oscillates or turns within the step unseen, and the step can be cut;
+  /// A prescribed motion oscillates or turns within the step unseen, and the step can be cut.
   std::optional<StepFailure> judge_prescribed_motion(double t) const;
-  /// ... in dynamics, nodes approach so far in the step of first contact that the motion after the
+  /// In dynamics, nodes approach so far in the step of first contact that the motion after the
   /// contact is unknown.
   std::optional<StepFailure> judge_first_contact(double t) const;
 
