@@ -49,7 +49,7 @@ CLOSED_FORMS = (
         "results/hertz-contact",
         {"elements over the radius": "6", "largest pressure / E [%]": "0.7"},
         "force, limit [%]",
-        "Without the far border",
+        "Without the far boundary",
         " %",
     ),
     Case(
