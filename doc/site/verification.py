@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import NamedTuple, Sequence
 
@@ -48,7 +49,7 @@ CLOSED_FORMS = (
         "results/hertz-contact",
         {"elements over the radius": "6", "largest pressure / E [%]": "0.7"},
         "force, limit [%]",
-        "Without the far border",
+        "Without the far boundary",
         " %",
     ),
     Case(
@@ -196,12 +197,20 @@ BENCHMARKS = (
         "length [mm]",
         "Beside experiments",
     ),
-    Case(
-        "Square cup of NUMISHEET'93, 30 × 30 bricks: draw-in DX at 40 mm",
-        "measured mean, at second hand",
-        "results/square-cup",
-        {"bricks of the quarter": "30 × 30"},
-        "beside measured after 40 mm: DX, mm",
+    *(
+        Case(
+            f"{what}: draw-in {measure} at {depth} mm",
+            "measured mean, at second hand",
+            "results/square-cup",
+            {"bricks of the quarter": "24 × 24"},
+            f"beside measured after {depth} mm: {measure.split()[0]}, mm",
+        )
+        for what, measure, depth in (
+            ("Square cup of NUMISHEET'93, 24 × 24 bricks", "DX (middle of an edge)", 15),
+            ("The same", "DD (diagonal)", 15),
+            ("The same", "DX (middle of an edge)", 40),
+            ("The same", "DD (diagonal)", 40),
+        )
     ),
     Case(
         "Cylindrical cup with Hill's anisotropy, 34 × 18 bricks: height of the ears over the reference's",
@@ -251,6 +260,15 @@ BENCHMARKS = (
 )
 
 
+def unified(value: str) -> str:
+    """Returns a value with the minus sign of the pages of results, and small parts of one as per cent."""
+    value = value.replace("−", "-")
+    if not re.fullmatch(r"[-+]?[\d.]+e[-+]\d+", value):
+        return value
+    sign = "+" if value[0] in "+-" else ""
+    return f"{100 * float(value):{sign}.2g} %"
+
+
 def make_table(root: Path, at: str, cases: Sequence[Case]) -> str:
     """Returns the table of some cases, for a page of doc/."""
     up = "../" * at.count("/")
@@ -263,5 +281,5 @@ def make_table(root: Path, at: str, cases: Sequence[Case]) -> str:
         else:
             value = cell_of(page, case.row, case.column, case.heading) + case.unit
         command = case.command or f"scripts/benchmarks {page.stem}"
-        rows.append((case.what, case.reference, f"[{value}]({up}{case.page}.md)", f"`{command}`"))
+        rows.append((case.what, case.reference, f"[{unified(value)}]({up}{case.page}.md)", f"`{command}`"))
     return table(("case", "reference", "error or value", "command"), rows)

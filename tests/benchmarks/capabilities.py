@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a scene pays for each capability that it asks for: instructions and memory, from one elastic body
-on."""
+"""What each capability costs a scene that uses it: instructions and memory, from one elastic body on."""
 
 from __future__ import annotations
 
@@ -246,8 +245,8 @@ publish(
     "What capabilities cost",
     options,
     (
-        "This page shows what each capability costs a run that uses it. Each line is a scene that pays for"
-        " what stands in its second column and for nothing else. `tests/cli/capabilities.py` holds each"
+        "This page shows what each capability costs a run that uses it. Each line is a scene that uses"
+        " what stands in its second column and nothing else. `tests/cli/capabilities.py` holds each"
         " capability to that.\n\n"
         f"The scene is a block of {EDGE} × {EDGE} × {EDGE} bricks, and what is added to it. It is pressed"
         f" by 0.5 % (explicit: by a pressure). The second body is a cap of {EDGE} × {EDGE} bricks. The tool"
@@ -263,7 +262,7 @@ publish(
     table(
         [
             "scene",
-            "pays for",
+            "uses",
             "iterations",
             "10⁶ instructions, set-up and first step",
             "10⁶ of an iteration",
@@ -282,7 +281,7 @@ publish(
     table(
         [
             "scene",
-            "pays for",
+            "uses",
             "steps",
             "10⁶ instructions, set-up and a fifth of the time",
             "of a step and element",

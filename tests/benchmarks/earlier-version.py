@@ -38,7 +38,7 @@ CUT: dict[str, Changes] = {
 AS_THEN: dict[str, Changes] = {"billet_upsetting": {"Time stepping/Largest step": 0.1}}
 # Changed on purpose since; and settings of both programs that leave no room for the change.
 AUGMENTED_LESS = "friction is augmented no further than equilibrium is resolved"
-BALANCED = "steps go on until the resultants of each body balance to 1 %"
+BALANCED = "iterations continue until the resultants of each body balance to 1 %"
 TO_THE_END: Changes = {"Solver/Force tolerance": 1e-8}
 WITHOUT_CAUSE: dict[str, Changes] = {
     "billet_deformable_dies": TO_THE_END,
@@ -56,7 +56,7 @@ CAUSES = {
     "drop_hammer": BALANCED,
     "ironing": AUGMENTED_LESS,
     "twisted_hemisphere": AUGMENTED_LESS,
-    "billet_deformable_dies": "rattles when it is released: a change of 1e-13 in E does as much",
+    "billet_deformable_dies": "contact chatters at the release: a change of 1e-13 in E has the same effect",
 }
 COUNTED: dict[str, tuple[Changes, str, str]] = {
     "billet_upsetting": ({}, "billet::run_simulation(*", "the whole run"),

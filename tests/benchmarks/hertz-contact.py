@@ -153,20 +153,20 @@ publish(
     (
         "This page compares force, contact radius and pressure with Hertz's closed form, without friction,"
         " at a travel of a²/R. Refine mesh, extent and penalty together: the penalty lets the half-space in"
-        " by p/k, and the far border, which is held, stiffens it. The largest pressure is 0.7 % of E unless"
+        " by p/k, and the far boundary, which is held, stiffens it. The largest pressure is 0.7 % of E unless"
         " the table says otherwise. Each run is done once."
     ),
     "## Mesh, with a hundred times the default penalty factor\n\n"
     + table(HEAD, [row(n, 120, 1000) for n in meshes]),
     "## Penalty factor; 10 is the default\n\n" + table(HEAD, [row(6, 120, k) for k in (1, 10, 100, 1000)]),
     "## Extent\n\n"
-    "The held border takes away a displacement that falls with one over its distance. The force's error"
+    "The held boundary takes away a displacement that falls with one over its distance. The force's error"
     " falls in the same way:\n\n"
     + table(
         HEAD[:5] + HEAD[6:],
         [r[:5] + r[6:] for r in (row(6, far, 1000) for far in (15, 30, 60, 120, 240, 480))],
     ),
-    "## Without the far border\n\n"
+    "## Without the far boundary\n\n"
     "The limit is what the force's error goes to as one over the extent goes to zero. The table has it over"
     " mesh and load, with a hundred times the default penalty factor.\n\n"
     "The error that is left at 0.7 % of E goes with the load. Hertz has a linear law, small slopes, and a"

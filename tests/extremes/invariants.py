@@ -1216,20 +1216,27 @@ class Running(unittest.TestCase):
         self.assertEqual(
             report.safe([*records, of(["penalty", "mu"], [100.0, 0.0], "failed")], "penalty"), "1 to 10"
         )
-        # Told ones are safe unless it is about penalties; soft ones are not, but for scenes that are soft
+        # Warned ones are safe unless it is about penalties; soft ones are not, but for scenes that are soft
         # anyway.
         nothing: Record = {}
-        told: Record = {"depth": 0.0, "warnings": ["contact-too-soft"]}
+        warned: Record = {"depth": 0.0, "warnings": ["contact-too-soft"]}
         self.assertEqual(
             [
                 report.outcome_of({**of([], [], soft=True), **r})
-                for r in (told, {**told, "depth": 1.0}, {**told, "warnings": ["penalty-too-low"]}, nothing)
+                for r in (
+                    warned,
+                    {**warned, "depth": 1.0},
+                    {**warned, "warnings": ["penalty-too-low"]},
+                    nothing,
+                )
             ],
-            ["told", "soft", "soft", "soft"],
+            ["warned", "soft", "soft", "soft"],
         )
         for parameter, range_of in (("mu", "0 to 0.3"), ("penalty", "0.3")):
             self.assertEqual(
-                report.safe([{**of([parameter], [v], soft=v == 0.0), **told} for v in (0.0, 0.3)], parameter),
+                report.safe(
+                    [{**of([parameter], [v], soft=v == 0.0), **warned} for v in (0.0, 0.3)], parameter
+                ),
                 range_of,
             )
         turned = [

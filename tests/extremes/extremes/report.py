@@ -26,7 +26,7 @@ Records = Sequence[Record]
 
 COLOURS = {
     "right": "#4c9f70",
-    "told": "#7fbf94",
+    "warned": "#7fbf94",
     "soft": "#b9dcc3",
     "doubtful": "#c7dc6b",
     "refused": "#9db4d6",
@@ -171,15 +171,15 @@ def alone(records: Records, parameter: str) -> list[Record]:
 
 
 def outcome_of(record: Record) -> str | None:
-    """As the tables have it: where all that must hold does, but a penalty is soft, "soft", or "told" if only
-    a warning says by how much."""
+    """As the tables have it: where all that must hold does, but a penalty is soft, "soft", or "warned" if
+    only a warning says by how much."""
     if record.get("outcome") != "right" or not record.get("soft"):
         return record.get("outcome")
     return (
         "soft"
         if record.get("depth", DEEP) > DEEP
         or "penalty-too-low" in record.get("warnings", ["penalty-too-low"])
-        else "told"
+        else "warned"
     )
 
 
@@ -219,7 +219,7 @@ def safe(records: Records, parameter: str, soft: AbstractSet[str] = frozenset())
         [
             (
                 r
-                if not is_strict and (variant(r) in soft or outcome_of(r) == "told")
+                if not is_strict and (variant(r) in soft or outcome_of(r) == "warned")
                 else {**r, "outcome": outcome_of(r)}
             )
             for r in own
@@ -474,7 +474,7 @@ def write(records: Records, folder: Path, planned: int = 0, program: str = "", b
     (folder / "images").mkdir(parents=True, exist_ok=True)
     soft = soft_by_default(records)
     outcomes = [
-        o for o in (OUTCOMES[0], "told", "soft", *OUTCOMES[1:]) if any(outcome_of(r) == o for r in records)
+        o for o in (OUTCOMES[0], "warned", "soft", *OUTCOMES[1:]) if any(outcome_of(r) == o for r in records)
     ]
     whole = Counter(map(outcome_of, records))
     parts = [
@@ -497,7 +497,7 @@ def write(records: Records, folder: Path, planned: int = 0, program: str = "", b
         " same",
         "Each scene has one outcome:\n\n"
         "- *right*: all of that holds.\n"
-        "- *told*: all of that holds. A warning says that penetration takes more than 4 % of the energy"
+        "- *warned*: all of that holds. A warning says that penetration takes more than 4 % of the energy"
         " along a load path, and how much.\n"
         f"- *soft*: all of that holds. A node goes deeper than {DEEP:g} facet sizes, though, or a warning"
         " says that the penalty is low for the facets. Forces are then too small, by any factor: what is in"
@@ -528,11 +528,11 @@ def write(records: Records, folder: Path, planned: int = 0, program: str = "", b
         *of_laws(records, outcomes),
         "## By parameter",
         "*Safe* is the widest range around the default, for each kind of run; of words it is those that are"
-        " safe. In this range every scene that turns this parameter alone is right or told, and not soft."
+        " safe. In this range every scene that turns this parameter alone is right or warned, and not soft."
         " Beyond it at least one of them is not, which may be one of many, or none was tried. Scenes that are"
         " soft as they are"
         + (" (" + ", ".join(f"`{scene}`" for scene in sorted(soft)) + ")" if soft else "")
-        + " count as soft for penalties, strains and shapes only. So do those that are told.\n\n"
+        + " count as soft for penalties, strains and shapes only. So do warned scenes.\n\n"
         "Blocks reach the strain that is named only under penalties that do not give way. Where a"
         " strain or a shape is turned, penalties are raised to what that takes, up to 1e5 E/h. With the"
         " default of 10 E/h an elastic block that is pressed to ln -1 gives way at -0.76. One pressed"
@@ -626,8 +626,8 @@ PICTURES = {
 
 
 LEGEND = (
-    "A colour is an outcome of the list above: *told* is a scene that is right, with a warning of the energy"
-    " that penetration takes. A number is that of iterations a step."
+    "A colour is an outcome of the list above: *warned* is a scene that is right, with a warning of the"
+    " energy that penetration takes. A number is that of iterations a step."
 )
 
 
