@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: figures.py [--write | --accept | --self-check]
 
-Checks figures in running text of README.md and doc/ against the pages of doc/results that have them, and
-against doc/scenes/costs.csv and values.csv. Checks that the tables that pages insert are there.
+Checks figures in running text of README.md, the pages beside it and doc/ against the pages of doc/results
+that have them, and against doc/scenes/costs.csv and values.csv. Checks that the tables that pages insert are
+there.
 
 Checks that pages have no other measured figure: each number with a unit is in FIGURES, in an example of code,
 or in doc/site/constants.txt, which lists limits, defaults and data. So is each number in words of runs,
@@ -37,17 +38,25 @@ PAGES = (  # of doc/, beside its folders
     "verification",
 )
 
+BESIDE = ("CHANGELOG.md", "CODE_OF_CONDUCT.md", "CONTRIBUTING.md", "README.md")  # pages beside doc/
+
+OF_SIZE = r"(?: (?:small|tiny|short|fixed|equal|shipped))?"
 NUMBER = r"(?<![\w.])[−+-]?\d[\d,.]*(?:e[-+]?\d+)?"
 UNIT = (
-    r"(?: ?[%°]| (?:times|iterations|steps|cuts|seconds|minutes|hours|s|ms|µs|ns|MB|GB|kN|MN|N|MPa|mm|µm|mJ|J"
-    r"|E/h|rad|dofs|bricks|elements|instructions|runs|scenes)\b)"
+    rf"(?: ?[%°]|{OF_SIZE} (?:times|iterations|steps|cuts|seconds|minutes|hours|s|ms|µs|ns|MB|GB|kN|MN|N|MPa"
+    r"|mm|µm|mJ|J|E/h|rad|dofs|unknowns|bricks|elements|meshes|instructions|states|runs|scenes|tests|cases"
+    r"|files|pages|messages|parameters|benchmarks)\b)"
 )
 WORDS = (
     *("two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"),
-    *("dozen", "twenty", "thirty", "forty", "fifty", "hundred"),
+    *("thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen", "dozen"),
+    *("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety", "hundred"),
 )
-COUNTED = r"(?:iterations|steps|cuts|seconds|minutes|hours|times|runs|scenes|meshes)"
-IN_WORDS = rf"(?i:\b(?:{'|'.join(WORDS)})(?: (?:small|tiny|fixed|equal|shipped))?) {COUNTED}\b"
+COUNTED = (
+    r"(?:iterations|steps|cuts|seconds|minutes|hours|times|runs|scenes|meshes|tests|cases|files|pages"
+    r"|benchmarks)"
+)
+IN_WORDS = rf"(?i:\b(?:{'|'.join(WORDS)}){OF_SIZE}) {COUNTED}\b"
 MEASURED = re.compile(
     rf"(?:{NUMBER}(?: to {NUMBER})?{UNIT}|(?<![\w.])\d[\d.]*e-\d+|{IN_WORDS})(?: [a-zµ]+\b){{0,2}}"
 )
@@ -369,9 +378,9 @@ def strays_of(page: str, text: str) -> list[str]:
 
 
 def pages_without_strays() -> list[str]:
-    folders = ("doc/guide", "doc/scenes", "doc/theory", "doc/tutorials")
+    folders = ("doc/guide", "doc/news", "doc/scenes", "doc/theory", "doc/tutorials")
     files = [file for folder in folders for file in sorted((ROOT / folder).glob("*.md"))]
-    names = ("README.md", *(f"doc/{name}.md" for name in PAGES))
+    names = (*BESIDE, *(f"doc/{name}.md" for name in PAGES))
     return [*names, *(file.relative_to(ROOT).as_posix() for file in files)]
 
 
@@ -422,6 +431,8 @@ def check_itself() -> int:
         ("It has `5 %` and\n```\n6 %\n```\n<!-- insert: 7 % -->\n", []),
         ("to 1e-12 of the size, in 5 ways", ["1e-12 of the"]),
         ("Six small scenes ran in two ways.", ["Six small scenes ran in"]),
+        ("It runs 4,824 tiny scenes, and 201 tests.", ["4,824 tiny scenes", "201 tests"]),
+        ("Sixty files were read.", ["Sixty files were read"]),
     ):
         if strays_of("", text) != expected:
             print(f"'{text}' has {strays_of('', text)}, not {expected}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import re
+import sys
 from pathlib import Path
 from typing import Iterator, Mapping, Optional
 
@@ -13,9 +14,13 @@ from pages import code, prose, table
 from reference import Reference
 from results import selected, tables_of, values_of
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
+from billet_tools.text import wrapped  # noqa: E402
+
 INSERTION = re.compile(r"^<!-- insert: (.+?) -->$", re.MULTILINE)
 HELP_ENTRY = re.compile(r"^(?:Usage:)? +((?:billet |--).*?)(?: {2,}(.+))?$")
 TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
+MAX_LINES_OF_NEWS = 12  # a title, an empty line and five sentences
 
 
 def help_tables(text: str) -> str:
@@ -33,6 +38,14 @@ def help_tables(text: str) -> str:
             title = "command" if rows[0][0].startswith("billet") else "option of runs, checks and previews"
             shown += table([title, "meaning"], [(code(name), prose(meaning)) for name, meaning in rows])
     return shown
+
+
+def news_of(file: Path) -> str:
+    """Returns an entry of doc/news as a section of the changelog, with links as from doc/."""
+    text = file.read_text(encoding="utf-8").strip()
+    if not text.startswith("# ") or text.count("\n#") or text.count("\n") >= MAX_LINES_OF_NEWS:
+        raise SystemExit(f"doc/news/{file.name}: not a title and five sentences, see doc/news/README.md")
+    return f"##{text}".replace("](../", "](")
 
 
 class Insertions:
@@ -189,13 +202,21 @@ class Insertions:
         raise SystemExit("no table of safe ranges in results/extremes.md")
 
     def _insert_changes(self, page: str) -> str:
-        """Shows the news that become lines of CHANGELOG.md at the next release, latest first, and these."""
-        news = []
-        for file in sorted((self._root / "doc/news").glob("20*.md"), reverse=True):
-            text = re.sub(r"^#", "###", file.read_text(encoding="utf-8"), flags=re.MULTILINE)
-            news.append(text.strip().replace("](../", "]("))
+        """Shows CHANGELOG.md, with the news at the top: in the version that is in development, if any."""
         head, *versions = re.split(r"^(?=## )", self._from_root("CHANGELOG.md"), flags=re.MULTILINE)
-        return "\n\n".join([head.strip(), "## Unreleased", *news, "".join(versions)])
+        news = [news_of(file) for file in sorted((self._root / "doc/news").glob("20*.md"), reverse=True)]
+        title = "## Unreleased"
+        if versions and "in development" in versions[0].split("\n", 1)[0]:
+            title, versions[0] = versions[0].split("\n", 1)
+        elif not news:
+            title = ""
+        text = "\n\n".join(part.strip() for part in [head, title, *news, "".join(versions)] if part.strip())
+        return wrapped(re.sub(r"`doc/(?!news/)([\w/-]+\.md)`", self._titled_link, text))
+
+    def _titled_link(self, match: re.Match[str]) -> str:
+        """Returns a link for the path of a page in CHANGELOG.md, which is read in installations, too."""
+        title = TITLE.search(self._pages.get(match[1], ""))
+        return f"[{title[1]}]({match[1]})" if title else match[0]
 
     def _insert_contributing(self, page: str) -> str:
         """Shows CONTRIBUTING.md, and CODE_OF_CONDUCT.md as its last chapter."""
