@@ -106,7 +106,7 @@ def by_program(scene: Scene, target: float) -> list[Candidate]:
 
 
 class Cheapest:
-    """What the candidates gave, and the choice among them."""
+    """Results of the candidates, and the choice among them."""
 
     def __init__(
         self,

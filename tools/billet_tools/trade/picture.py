@@ -264,7 +264,8 @@ def is_number(text: str) -> bool:
 def name_points(
     axes: Axes, sweep: Sweep, cost: Measure, u: float, band: float, notes: Sequence[Text]
 ) -> None:
-    """The values, those on the front first, where there is room beside points, notes and each other."""
+    """Labels points with their values, those on the front first, if there is room beside points, notes and
+    each other."""
     pixels = axes.transData.transform
     frame = axes.get_window_extent()
     taken = [note.get_window_extent().extents for note in notes if note.axes is axes]
