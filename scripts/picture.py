@@ -243,7 +243,7 @@ if is_flat or not is_quarter:
 view = make_view(1200)
 show_field(CellDatatoPointData(Input=body_at(files()[-1]), CellDataArraytoprocess=[FIELD[0]]), view)
 
-# What it was at time 0.
+# The body at time 0.
 start = ExtractSurface(Input=body_at(files()[0]))
 show_plain(start, [0.5, 0.55, 0.6], 0.10)
 show_plain(FeatureEdges(Input=start, FeatureAngle=50), [0.5, 0.54, 0.6], 1.0, 1.6)

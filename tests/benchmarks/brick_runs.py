@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the benchmarks of elements share: meshes of bricks, runs of one body, parts of its scene."""
+"""Shared parts of the benchmarks of elements: meshes of bricks, runs of one body, parts of its scene."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ COMMIT = "f6fd959e"  # the last one before the classes were divided
 BEFORE = os.environ.get("BILLET_BEFORE", "")
 ALLOWED = 1e-10
 ALLOWED_INSTRUCTIONS = 0.03
-# Of the scenes at the extremes. BILLET_PART=1/1 takes all, for about two hours; what ran is kept.
+# Part of the scenes at the extremes. BILLET_PART=1/1 runs all, for about two hours; finished runs are kept.
 PART = os.environ.get("BILLET_PART", "1/32")
 
 # Parts of long runs.

@@ -21,7 +21,7 @@ from silent_errors_runs import (
 )
 from billet_tools.output import Array
 
-# Of references: as good as exact, in small steps.
+# Settings of references: as good as exact, in small steps.
 EXACT = {
     "Force tolerance": 1e-5,
     "Energy tolerance": 1e-9,
@@ -1315,7 +1315,7 @@ FAMILIES = {
     "friction account": friction_account,
 }
 
-# What each family is, and what its runs are compared with.
+# Description of each family, and the references of its runs.
 ABOUT = {
     "bending": (
         (

@@ -66,7 +66,7 @@ class Case(NamedTuple):
                 }
 
     def by_hand(self) -> Iterator[tuple[str, Changes]]:
-        """What a user might set: 27 settings at most."""
+        """Yields settings of a user: 27 at most."""
         if self.is_explicit:
             for level, penalty, safety in product(self.levels, (1, 3, 10), (0.9, 0.75)):
                 yield f"level {level}, penalty {penalty}, safety {safety:g}", {

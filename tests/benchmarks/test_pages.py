@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What benchmarks compute and say of what they ran."""
+"""Tests the computations of benchmarks, and their sentences on runs."""
 
 from __future__ import annotations
 

@@ -64,7 +64,8 @@ def tangents() -> str:
 
 
 def residuals() -> str:
-    """Of the first step of 1.5 % of the travel that ends past a third of it."""
+    """Returns a table of the residuals in the first step of 1.5 % of the travel that ends past a third of
+    it."""
     rows = []
     for tangent in ("exact", "consistent"):
         r = run({**coarse, TANGENT: tangent, STEP + "Maximum step": 0.015, "Output/Verbosity": "iterations"})
