@@ -225,7 +225,7 @@ class Deck:
         return 10.0 / sum(size / self.materials[body][1] for body, size in self.sizes.values())
 
     def hold(self, name: str, members: Sequence[int], *components: int) -> None:
-        """For good."""
+        """Fixes components of nodes for the whole run."""
         self.node_set(name, members)
         self.lines += ["*BOUNDARY"] + [f"{name}, {i}, {i}" for i in components]
 

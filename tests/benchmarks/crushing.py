@@ -341,8 +341,8 @@ RIPPLE = 0.02
 
 
 def walled(n: int, waves: float, moved: float, law: str, element: str) -> tuple[Solution, list[float]]:
-    """All normal displacements of a cube are given, as of plane strain without change of volume; the wall x =
-    1 has a ripple of so many half waves, straight between its crests."""
+    """Runs a cube with all normal displacements prescribed, as in plane strain without change of volume. The
+    wall x = 1 has a ripple of so many half waves, straight between its crests."""
     bricks = block(n, moved)
     triangle = [f"(1 - 2*acos(cos({waves}*pi*{v}))/pi)" for v in "yz"]
     wall = f"1/(1 - 0.25*t) - 1 + {RIPPLE / waves!r}*min(1, 20*t)*" + "*".join(triangle)

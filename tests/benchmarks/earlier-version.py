@@ -244,7 +244,7 @@ def outcomes(program: str, version: Path, chosen: list[str]) -> dict[str, tuple[
 
 
 def compare_outcomes(earlier: Path) -> list[dict[str, tuple[str, str]]]:
-    """Those of a part of the earlier plan, with both programs."""
+    """Returns the outcomes of a part of the earlier plan, with both programs."""
     before = outcomes(BEFORE, earlier, ["--part", PART])
     whole = ["--part", PART] if PART == "1/1" else []  # names of all would be too long a command
     return [before, outcomes(PROGRAM, ROOT, whole or [part for name in before for part in ("--only", name)])]

@@ -135,7 +135,7 @@ for size in SIZES:
 
 
 def memory() -> str | None:
-    """Where MUMPS has not run: what it would need, by its growth."""
+    """Returns the memory that MUMPS would need where it has not run, by its growth."""
     found = {}
     for size in SIZES:
         for ranks in (1, options.ranks):

@@ -496,8 +496,8 @@ def ironing() -> list[Case]:
 
 
 def pressed(shape: str, second: Any, scheme: str, penalty: float | None) -> Sections:
-    """On a plane, or on another of its kind, by a hundredth of its height; without a Poisson ratio the stress
-    is uniform."""
+    """Returns a scene of a body pressed on a plane, or on another of its kind, by a hundredth of its height.
+    Without a Poisson ratio the stress is uniform."""
     counts, size = {"slab": ((4, 4, 1), (4, 4, 0.05)), "block": ((3, 3, 3), (1, 1, 1))}[shape]
     solid = elastic(1000, 0.0, Density=None if scheme == "quasi-static" else 1e-3)
     height = size[2]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Whether runs with a 'Target error' are as accurate as they should be, and what they cost beside runs set by
-hand."""
+"""Measures whether runs with a 'Target error' are as accurate as they should be, and their cost beside runs
+set by hand."""
 
 from __future__ import annotations
 

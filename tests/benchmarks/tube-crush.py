@@ -179,7 +179,8 @@ def distance_from_triangle(point: Array, triangles: Array) -> Array:
 
 
 def inside_brick(corners: Array, x: Array) -> Array | None:
-    """Whether the trilinear map of the brick has x inside, by Newton's method: its parameters, or None."""
+    """Returns the parameters of x in the trilinear map of the brick, by Newton's method; None if x is
+    outside."""
     xi = numpy.full(3, 0.5)
     signs = numpy.array([[a & 1, (a >> 1) & 1, (a >> 2) & 1] for a in range(8)])
     for _ in range(12):

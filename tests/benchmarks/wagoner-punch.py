@@ -181,7 +181,8 @@ def friction() -> str:
 
 
 def peaks() -> str:
-    """Where the blank strains most, over travel and friction, and how much its centre does."""
+    """Returns a table of the places of the maximum strain over travel and friction, with the strain of the
+    centre."""
     rows = []
     for travel in (10, 20, 22.5, 23, 30, 35, 40):
         shapes = [run_with_shape({"Time stepping/End time": repr(travel / TRAVEL)}, mu)[1] for mu in SCENES]

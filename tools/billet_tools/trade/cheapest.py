@@ -135,7 +135,7 @@ class Cheapest:
 
     @property
     def is_shown(self) -> bool:
-        """Whether the choice is within the target wherever the limit is in its range."""
+        """Returns whether the choice is within the target wherever the limit is in its range."""
         return self.chosen is not None and self.chosen.error + self.uncertainty <= self.target
 
     def words(self) -> str:

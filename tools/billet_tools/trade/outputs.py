@@ -120,7 +120,7 @@ class Force(Output):
         return of_tools or found or [c for c in result.history if ".force_" in c and ".support " in c]
 
     def _curve(self, result: Result) -> tuple[Array, Array]:
-        """As the history has it, from a force of zero at time zero on."""
+        """Returns times and forces of the history, with a force of zero at time zero."""
         times = result.history["time"]
         forces = numpy.stack([result.history[c] for c in self.columns], -1)
         if times[0] > 0.0:

@@ -67,7 +67,7 @@ def choice(
 
 
 def known_parameters(words: Words) -> dict[str, Parameter]:
-    """All parameters, the choices with those values that the program allows."""
+    """Returns all parameters; choices have the values that the program allows."""
     return {
         name: (
             replace(known, arguments=[word for word in words(known.path) if word not in known.without])

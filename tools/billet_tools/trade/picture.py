@@ -207,7 +207,7 @@ def draw_front(
     front = [points[i] for i in pareto_front([cost(p) for p in points], [error(p) for p in points], u)]
     if not front:
         return
-    # All that is dominated lies to the right of and above this staircase.
+    # Dominated points lie to the right of and above this staircase.
     x, y = [cost(front[0])], [ceiling]
     for p, following in zip(front, front[1:] + [None]):
         x += [cost(p), cost(following) if following else 1e30]

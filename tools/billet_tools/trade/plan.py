@@ -95,7 +95,7 @@ class Candidates:
     def changes(self, parameter: Parameter, argument: str) -> Changes:
         """Returns the changes of one value; raises CannotTurn with the reason."""
         changes = parameter.turned(self.scene, argument)
-        # Where one number is taken the others are; what is out of range the run itself tells.
+        # If the program takes one number, it takes others; the run itself reports one that is out of range.
         kind = (parameter.name, tuple(changes)) if is_number(argument) else None
         if kind is None or kind not in self.taken:
             _, against, _ = self.runner.check(self.scene.changed(changes))

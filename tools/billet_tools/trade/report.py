@@ -163,7 +163,7 @@ def error_text(error: float, uncertainty: float) -> str:
 
 
 class Sweep:
-    """All points, the reference they are measured against, and what follows."""
+    """Points of a sweep, their reference, and the conclusions from them."""
 
     def __init__(
         self,

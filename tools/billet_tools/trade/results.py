@@ -121,7 +121,7 @@ def collect(folder: Path, code: int | None, limit: float) -> dict[str, Any]:
         "limit": limit,
         "time": last,
         "steps": max(int(last_of("step")), int(value_of(error, "steps"))),
-        # With those of a step that failed for good, which no history has.
+        # They include those of a step that failed for good, which no history has.
         "newton": max(int(last_of("total_iterations")), int(value_of(error, "Newton iterations"))),
         "cuts": int(last_of("total_cuts")),
         "linear": int(numpy.sum(history.get("linear_iterations", 0))),
