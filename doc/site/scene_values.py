@@ -311,11 +311,17 @@ def hollow_block(runs: Runs) -> Iterable[Value]:
 
 
 def passing_spheres(runs: Runs) -> Iterable[Value]:
-    last = runs.shipped("passing_spheres")[-1]
-    part = last["friction_dissipation"] / last["external_work"]
-    yield Value("dissipation by friction over work put in, after parting", part, 1, ".4g")
-    options = ("Contact pairs/faces/Friction coefficient=0", "Time stepping/Stops=0.5")
-    rows = runs.shipped("passing_spheres", *(word for setting in options for word in ("--set", setting)))
+    def spheres(*settings: str) -> list[Row]:
+        return runs.shipped("passing_spheres", *(word for setting in settings for word in ("--set", setting)))
+
+    shorter = [f"Time stepping/{name} step=0.01" for name in ("Initial", "Maximum")]
+    for name, settings in (
+        ("dissipation by friction over work put in, after parting", []),
+        ("the same with a quarter of the step", shorter),
+    ):
+        last = spheres(*settings)[-1]
+        yield Value(name, last["friction_dissipation"] / last["external_work"], 1, ".4g")
+    rows = spheres("Contact pairs/faces/Friction coefficient=0", "Time stepping/Stops=0.5")
     middle = at(rows, 0.5)
     hertz = 4 / 3 * 100 / (2 * (1 - 0.3**2)) * math.sqrt(10 / 2) * 1.5**1.5
     yield Value("without friction: work returned over work put in", work_returned(rows), 1, ".4g")
