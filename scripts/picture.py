@@ -61,13 +61,13 @@ def files() -> list[str]:
 
 
 def file_at(time: float) -> str:
-    """At the time nearest to this."""
+    """Returns the file of the time nearest to this."""
     nearest = min(entries(), key=lambda entry: abs(float(entry.attrib["timestep"]) - time))
     return str(scene_file.parent / nearest.attrib["file"])
 
 
 def blocks_at(file: str, group: str) -> Proxy:
-    """All blocks of a group as one grid."""
+    """Returns all blocks of a group as one grid."""
     part = ExtractBlock(Input=XMLMultiBlockDataReader(FileName=[file]))
     part.Selectors = ["/Root/" + group]
     return MergeBlocks(Input=part, MergePoints=0)
@@ -86,7 +86,7 @@ def image(source: Proxy, plane: str) -> Proxy:
 
 
 def merged(source: Proxy) -> Proxy:
-    """With nodes at one place made one: images have their own."""
+    """Returns the grid with coincident nodes merged; images have nodes of their own."""
     return CleantoGrid(Input=source, ToleranceIsAbsolute=0, Tolerance=1e-6)
 
 
@@ -95,7 +95,7 @@ def all_around(quarter: Proxy) -> Proxy:
 
 
 def three_quarters(quarter: Proxy) -> Proxy:
-    """All around but x > 0, y < 0."""
+    """Returns the body around the axis without the quarter x > 0, y < 0."""
     left = image(quarter, "X")
     return merged(AppendDatasets(Input=[quarter, left, image(left, "Y")]))
 
@@ -168,7 +168,7 @@ def show_field(body: Proxy, view: Proxy, largest: float | None = None, with_bar:
 
 
 def draw_flat(bodies: Sequence[Proxy], largest: float) -> None:
-    """Along y, from above to below."""
+    """Draws bodies seen along y, from top to bottom."""
     centres, sizes = zip(*[box(body) for body in bodies])
     width, gap = max(size[0] for size in sizes), 0.3 * sizes[0][2]
     height = sum(size[2] + gap for size in sizes) + 0.08 * width  # the bar below
@@ -184,7 +184,7 @@ def draw_flat(bodies: Sequence[Proxy], largest: float) -> None:
 
 
 def draw_along_z(bodies: Sequence[Proxy], largest: float) -> None:
-    """From left to right, above the bar of colours."""
+    """Draws bodies from left to right, above the bar of colours."""
     centre, size = box(bodies[0])
     width, height = 1.1 * size[0] * len(bodies), 1.25 * size[1]
     view = make_view(1200)
@@ -199,7 +199,7 @@ def draw_along_z(bodies: Sequence[Proxy], largest: float) -> None:
 
 
 def draw_as_it_is(bodies: Sequence[Proxy], largest: float) -> None:
-    """From left to right along y."""
+    """Draws bodies from left to right, seen along y."""
     view = make_view(800 * len(bodies))
     centre, sizes = box(bodies[0])
     size = max(sizes)
@@ -243,7 +243,7 @@ if is_flat or not is_quarter:
 view = make_view(1200)
 show_field(CellDatatoPointData(Input=body_at(files()[-1]), CellDataArraytoprocess=[FIELD[0]]), view)
 
-# What it was at time 0.
+# The body at time 0.
 start = ExtractSurface(Input=body_at(files()[0]))
 show_plain(start, [0.5, 0.55, 0.6], 0.10)
 show_plain(FeatureEdges(Input=start, FeatureAngle=50), [0.5, 0.54, 0.6], 1.0, 1.6)

@@ -155,7 +155,7 @@ def self_check() -> list[str]:
         "source/solve/wrappers.cc": ("#include <deal.II/lac/trilinos_vector.h>", "only algebra/ names deal"),
         "source/solve/sacado.cc": ("#include <Sacado.hpp>", "only algebra/ names Sacado"),
         "source/solve/method.cc": ("auto m = DirectMethod::klu;", "only algebra/ names DirectMethod::klu"),
-        # What is allowed:
+        # Allowed code:
         "include/billet/geometry/derivative.h": ("#include <Sacado.hpp>\nusing F = Sacado::Fad::Exp;", ""),
         "source/solve/text.cc": ('const char *a = "Linear solver = MUMPS, MUMPS_x";\nint control_, ml_;', ""),
         "source/solve/local.cc": ('#include "billet/discretization/local_nodes.h"', ""),

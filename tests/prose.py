@@ -50,7 +50,7 @@ ABBREVIATION = re.compile(
 )
 BLANK_IN_CODE = "\ue000"
 END = re.compile(r"[.!?][)\"'»”*_]*(?=\s+[^a-zµ]|\s*$)")
-# Of C++: strings and the like, which may have two slashes that begin no comment; and comments.
+# Tokens of C++: comments, and strings and the like, in which two slashes begin no comment.
 TOKEN = re.compile(
     r'R"([^()\\\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])*\'|/\*.*?\*/'
     r"|(//[/!]?<?)([^\n]*)",

@@ -25,7 +25,7 @@ from typing import Sequence
 
 ENVIRONMENT = Path(__file__).resolve().parents[1] / "scripts/environment.sh"
 
-# What differs from run to run or from version to version: deal.II's debug output, negative zeros, and times.
+# Output that differs between runs or versions: deal.II's debug output, negative zeros, and times.
 VOLATILE = (
     (r"\r$", ""),
     (r"^DEAL.*::_.*\n", ""),

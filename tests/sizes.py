@@ -26,7 +26,7 @@ from pathlib import Path
 MAX_MEMBERS, MAX_FUNCTIONS, MAX_LINES = 20, 40, 90
 LIMITS = {"data members": MAX_MEMBERS, "functions": MAX_FUNCTIONS, "lines": MAX_LINES}
 
-# What is larger: name, limit, number, reason.
+# Larger ones: name, limit, number, reason.
 EXCEPTIONS: list[tuple[str, str, int, str]] = []
 
 Sizes = dict[str, dict[str, int]]  # by name of a class or function, and by limit

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What pages insert by '<!-- insert: NAME ARGUMENT... -->'."""
+"""Makes the insertions of pages, '<!-- insert: NAME ARGUMENT... -->'."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ BLOCK = re.compile(
 )
 FRAME = re.compile(r"^:::.*\n", re.MULTILINE)
 ROLE = re.compile(r"\{[a-z]+\}`([^`]*)`")
-# What stands beside doc/, and where an installation has it, seen from its own pages.
+# Folders beside doc/, and their places in an installation, relative to its own pages.
 INSTALLED = {
     "prm": "../../billet/prm",
     "materials": "../../billet/materials",

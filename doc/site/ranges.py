@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What values parameters allow, where neither the program's schema nor the start of a description says so."""
+"""Values that parameters allow, if neither the program's schema nor the start of a description gives them."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ class Example(NamedTuple):
 
 
 class Reference:
-    """What the program says of itself, and where the repository uses it."""
+    """Lists of the program, and places where the repository uses their entries."""
 
     def __init__(self, program: Path, root: Path, pages: dict[str, str]) -> None:
         self._program = program

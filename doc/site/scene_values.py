@@ -89,6 +89,20 @@ def root(function: Callable[[float], float], low: float, high: float) -> float:
     return 0.5 * (low + high)
 
 
+def work_returned(rows: list[Row]) -> float:
+    """Returns the work that the scene gives back after its maximum, over the work put in until then."""
+    put_in = max(row["external_work"] for row in rows)
+    return 1 - rows[-1]["external_work"] / put_in
+
+
+def of_calculix(scene: str, method: str) -> float:
+    """Returns the first result of CalculiX for a scene on the page implicit-ccx."""
+    page = (ROOT / "doc/results/implicit-ccx.md").read_text(encoding="utf-8")
+    rows = page.split(f"| `{scene}` |", 1)[1].split("| `", 1)[0].splitlines()
+    found = next(row.split("|") for row in rows if f"| ccx, {method} |" in row)
+    return float(found[7].split(",")[0])
+
+
 def balloon(runs: Runs) -> Iterable[Value]:
     last = runs.shipped("balloon")[-1]
     force = Membrane(100.0, 2.0, 1.5 / (2 * 1.499)).force_on_plane(0.0115, 105.0, 1.1523, 0.298)
@@ -256,6 +270,21 @@ def drop_hammer(runs: Runs) -> Iterable[Value]:
         found, reference = (factor * largest(rows, column) for rows in (implicit, explicit))
         yield Value(f"{name}; reference: `Scheme = explicit`", found, reference)
     yield Value("steps; reference: `Scheme = explicit`", implicit[-1]["step"], explicit[-1]["step"], ".0f")
+    first, last = implicit[0], implicit[-1]
+    duration = last["time"] - first["time"]
+    steps = zip(implicit, implicit[1:])
+    name = "anvil.force_z"
+    impulse = sum(0.5 * (a[name] + b[name]) * (b["time"] - a["time"]) for a, b in steps)
+    weight = 981 + 9810 * 7.8e-9 * 30 * math.pi * 10**2 / 4
+    change = last["momentum_z"] - first["momentum_z"]
+    balance = "impulse of the anvil and of the weight, over the change of momentum"
+    yield Value(balance, (impulse - weight * duration) / change, 1)
+    terms = ("plastic_work", "friction_dissipation", "elastic_energy", "contact_energy")
+    taken = sum(last[name] - first[name] for name in terms)
+    given = first["kinetic_energy"] - last["kinetic_energy"] + last["external_work"] - first["external_work"]
+    yield Value(
+        "dissipated and stored energy, over kinetic energy lost and work of the weight", taken / given, 1
+    )
     for name in ("numerical_dissipation", "energy_drift"):
         part = 100 * abs(implicit[-1][name]) / energy
         yield Value(f"`{name}` at the end, % of the energy", part, None, ".1g")
@@ -270,6 +299,69 @@ def tube_impact(runs: Runs) -> Iterable[Value]:
     yield Value("largest penetration of a node, % of the wall", 100 * depth / 0.01, None, ".2g")
     yield Value("largest energy drift, % of the energy", 100 * drift / energy, None, ".1g")
     yield Value("largest momentum, of that of one tube", momentum / (mass / 2 * 50), None, ".0e")
+
+
+def hollow_block(runs: Runs) -> Iterable[Value]:
+    rows = runs.shipped("hollow_block")
+    reference = of_calculix("hollow_block", "surface to surface")
+    yield Value(
+        "work of squeezing, N mm; reference: CalculiX", at(rows, 1)["external_work"], reference, ".4g"
+    )
+    yield Value("work returned over work put in", work_returned(rows), 1)
+
+
+def passing_spheres(runs: Runs) -> Iterable[Value]:
+    def spheres(*settings: str) -> list[Row]:
+        return runs.shipped("passing_spheres", *(word for setting in settings for word in ("--set", setting)))
+
+    shorter = [f"Time stepping/{name} step=0.01" for name in ("Initial", "Maximum")]
+    for name, settings in (
+        ("dissipation by friction over work put in, after parting", []),
+        ("the same with a quarter of the step", shorter),
+    ):
+        last = spheres(*settings)[-1]
+        yield Value(name, last["friction_dissipation"] / last["external_work"], 1, ".4g")
+    rows = spheres("Contact pairs/faces/Friction coefficient=0", "Time stepping/Stops=0.5")
+    middle = at(rows, 0.5)
+    hertz = 4 / 3 * 100 / (2 * (1 - 0.3**2)) * math.sqrt(10 / 2) * 1.5**1.5
+    yield Value("without friction: work returned over work put in", work_returned(rows), 1, ".4g")
+    ratio = abs(middle["faces.force_x"] / middle["faces.force_z"])
+    yield Value("without friction: horizontal over vertical force at half-way", ratio, 0, ".1g")
+    name = "without friction: vertical force at half-way, N; reference: Hertz, half-spaces"
+    yield Value(name, middle["faces.force_z"], hertz, ".4g")
+
+
+def ring_crush(runs: Runs) -> Iterable[Value]:
+    # A thin ring under two opposite forces in plane strain; half is modelled.
+    rows = runs.shipped("ring_crush")
+    inertia = 0.5 * 0.5**3 / 12
+    stiffness = 100 / (1 - 0.3**2) * inertia / ((math.pi / 4 - 2 / math.pi) * 9.75**3) / 2
+    travel = rows[0]["die.travel_z"]
+    name = f"force over travel at {-travel:.3g} mm, N/mm; reference: thin ring"
+    yield Value(name, rows[0]["die.force_z"] / travel, stiffness, ".3g")
+    yield Value("work returned over work put in", work_returned(rows), 1)
+    finer = runs.shipped("ring_crush", "--set", "Time stepping/Maximum step=0.0125")
+    yield Value("the same with steps of at most 0.0125", work_returned(finer), 1)
+
+
+def turned_blocks(runs: Runs) -> Iterable[Value]:
+    rows = [row for row in runs.shipped("turned_blocks") if 1 <= row["time"] <= 37]
+    pressed, turned = rows[0], rows[-1]
+
+    def force(row: Row) -> list[float]:
+        """Returns the force in the frame that turns with the blocks."""
+        x, y, z = (row[f"blocks.force_{axis}"] for axis in "xyz")
+        c, s = (function((row["time"] - 1) * math.pi / 18) for function in (math.cos, math.sin))
+        return [x * c - z * s, y, x * s + z * c]
+
+    norm = math.hypot(*force(pressed))
+    for method in ("node to surface", "surface to surface"):
+        name = f"force after pressing, N; reference: CalculiX, {method}"
+        yield Value(name, norm, of_calculix("turned_blocks", method), ".4g")
+    change = max(math.dist(force(row), force(pressed)) for row in rows) / norm
+    yield Value("largest change of the force while the blocks turn, of the force", change, 0, ".1g")
+    work = [row["friction_dissipation"] for row in (pressed, turned)]
+    yield Value("friction work of the turn, of that before", work[1] / work[0] - 1, 0, ".1g")
 
 
 def flow_rules(runs: Runs) -> Iterable[Value]:
@@ -315,21 +407,25 @@ SCENES: dict[str, Callable[[Runs], Iterable[Value]]] = {
         drop,
         drop_hammer,
         flow_rules,
+        hollow_block,
         o_ring,
+        passing_spheres,
         pin_in_lug,
         pressurised_cylinder,
+        ring_crush,
         seal,
         slab_rolling,
         stack,
         step_punch,
         tube_impact,
+        turned_blocks,
     )
 }
 
 
 def difference(value: Value) -> str:
-    """Returns the relative difference: per cent, or a power of ten where it is small."""
-    if value.reference is None:
+    """Returns the relative difference: per cent, or a power of ten where it is small; none from 0."""
+    if not value.reference:
         return ""
     ratio = value.run / value.reference - 1
     if abs(ratio) < 1e-8:

@@ -214,7 +214,7 @@ TUTORIALS = {
 
 
 class Printed(NamedTuple):
-    """What is set in the scene of the billet, and the keys of the messages that a page shows."""
+    """Settings in the scene of the billet, and the keys of the messages that a page shows."""
 
     settings: tuple[str, ...]
     keys: str

@@ -86,7 +86,7 @@ for level in (1,) if options.quick else (1, 2, 3) if options.large else (1, 2):
 
 
 def ends(run: Run | CcxRun) -> str:
-    """At 60 and at 64 % reduction."""
+    """Returns the forces at 60 and at 64 % reduction."""
     return " / ".join(f"{interpolate(run.times, run.forces, time):.2f}" for time in (0.9375, 1.0))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What accuracy of the billet's force curve costs: mesh, step and contact tangent."""
+"""Measures the cost of accuracy of the billet's force curve: mesh, step and contact tangent."""
 
 from __future__ import annotations
 

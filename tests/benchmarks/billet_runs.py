@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the benchmarks share: runs of billet, errors of force curves, tables."""
+"""Shared parts of the benchmarks: runs of billet, errors of force curves, tables."""
 
 from __future__ import annotations
 
@@ -116,8 +116,8 @@ class Run:
 def count_instructions(
     folder: str | Path, function: str = "billet::run_simulation(*", program: str = PROGRAM
 ) -> int:
-    """Of a function in a run of scene.prm in this folder by callgrind; of the run, without what libraries do
-    before it."""
+    """Returns the instructions of a function in a run of scene.prm in this folder by callgrind; by default
+    those of the run, without those of libraries before it."""
     done = subprocess.run(
         [
             "valgrind",

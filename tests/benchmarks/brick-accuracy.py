@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How accurate the elements are: patch test, bending, distorted bricks, shells, incompressibility, hinges and
-springback."""
+"""Measures the accuracy of the elements: patch test, bending, distorted bricks, shells, incompressibility,
+hinges and springback."""
 
 from __future__ import annotations
 
@@ -90,8 +90,8 @@ GRADIENT = numpy.array([[0.3, 0.2, -0.1], [0.1, -0.2, 0.15], [-0.2, 0.1, 0.25]])
 
 
 def patch() -> str:
-    """Of a cube of 2 x 2 x 2 distorted bricks all of the surface moves as one deformation gradient wants.
-    Where it is zero, the inner node, single precision shows displacements to 1e-16 and less."""
+    """Tests a cube of 2 x 2 x 2 distorted bricks, whose whole surface moves by one deformation gradient. At
+    the inner node, where it is zero, single precision shows displacements to 1e-16 and less."""
     mesh, generator = Bricks([0, 1, 2], [0, 1, 2], [0, 1, 2]), numpy.random.RandomState(1)
     for axis in range(3):
         middle = abs(mesh.points[:, axis] - 1) < 0.5

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the benchmarks of elements share: meshes of bricks, runs of one body, parts of its scene."""
+"""Shared parts of the benchmarks of elements: meshes of bricks, runs of one body, parts of its scene."""
 
 from __future__ import annotations
 
@@ -175,7 +175,7 @@ class Solution:
         return fields["points"], fields["points"] - fields["displacement"], fields
 
     def where(self, point: Sequence[float], picture: int = -1) -> Array:
-        """Where a node is that was at this point."""
+        """Returns the current place of the node that was at this point."""
         moved, start, _ = self.pictures[picture]
         return moved[abs(start - numpy.array(point)).max(axis=1).argmin()]
 

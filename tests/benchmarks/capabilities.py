@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What each capability costs a scene that uses it: instructions and memory, from one elastic body on."""
+"""Measures the cost of each capability of a scene: instructions and memory, from one elastic body on."""
 
 from __future__ import annotations
 

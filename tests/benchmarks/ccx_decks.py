@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the comparisons with CalculiX share: billet's mesh from its own output, decks, runs of CalculiX."""
+"""Shared parts of the comparisons with CalculiX: billet's mesh from its own output, decks, runs of
+CalculiX."""
 
 from __future__ import annotations
 
@@ -128,8 +129,8 @@ class Deck:
         changes: Changes | None = None,
         midpoint: Midpoint = straight,
     ) -> None:
-        """Of each body its element, Young's modulus, Poisson's ratio, and yield stresses over plastic
-        strains, if any. Plates, which stand for plane tools, are bricks between two corners, the last
+        """`materials` of each body: element, Young's modulus, Poisson's ratio, and yield stresses over
+        plastic strains, if any. `plates`, which replace plane tools, are bricks between two corners, the last
         bodies. Elements of 20 nodes get one between the ends of each edge, by `midpoint`."""
         self.nodes, self.bodies = read_scene_mesh(scene, changes or {}, digits)
         if turn is not None:
@@ -224,7 +225,7 @@ class Deck:
         return 10.0 / sum(size / self.materials[body][1] for body, size in self.sizes.values())
 
     def hold(self, name: str, members: Sequence[int], *components: int) -> None:
-        """For good."""
+        """Fixes components of nodes for the whole run."""
         self.node_set(name, members)
         self.lines += ["*BOUNDARY"] + [f"{name}, {i}, {i}" for i in components]
 

@@ -47,7 +47,7 @@ def main() -> None:
     options = parsed()
 
     def point(around: float, along: float) -> str:
-        """In parts of the sector and of the tube's angle."""
+        """Returns a point by fractions of the sector and of the tube's angle."""
         turn = math.radians(options.start + around * options.sector)
         angle = math.radians(options.from_angle + along * (options.to_angle - options.from_angle))
         radius = options.ring + options.tube * math.cos(angle)

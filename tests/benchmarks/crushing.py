@@ -141,7 +141,7 @@ def what_is_wanted() -> str:
 
 
 def notes(runs: Mapping[str, Solution]) -> str:
-    """What runs warn of, and how they fail, in short."""
+    """Returns warnings and failures of runs in short."""
     return (
         "; ".join(f"{element}: {', '.join(run.keys)}" for element, run in runs.items() if run.keys) or "none"
     )
@@ -174,9 +174,9 @@ def flat_block(n: int, moved: float) -> Bricks:
 
 
 class Waves:
-    """How a picture of a cube differs from an affine deformation, in edges: the `largest` deviation, and root
-    mean squares of the hourglass amplitudes of the bricks: the part that alternates from each brick to its
-    neighbours, and the other one."""
+    """Deviation of a picture of a cube from an affine deformation, in edges: the `largest` one, and root mean
+    squares of the hourglass amplitudes of the bricks. These have a part that alternates from each brick to
+    its neighbours, and the rest."""
 
     def __init__(self, bricks: Bricks, n: int, picture: Picture) -> None:
         moved, start, _ = picture
@@ -211,7 +211,8 @@ class Waves:
 
 
 def bar(law: str, stretch: float) -> float:
-    """Of a bar pressed without friction: Kirchhoff stress along it, over the closed forms of the laws."""
+    """Returns the Kirchhoff stress along a bar pressed without friction, over the closed forms of the
+    laws."""
     kinematics, nu, material = LAWS[law]
     strain = math.log(stretch)
     if material:
@@ -340,8 +341,8 @@ RIPPLE = 0.02
 
 
 def walled(n: int, waves: float, moved: float, law: str, element: str) -> tuple[Solution, list[float]]:
-    """All normal displacements of a cube are given, as of plane strain without change of volume; the wall x =
-    1 has a ripple of so many half waves, straight between its crests."""
+    """Runs a cube with all normal displacements prescribed, as in plane strain without change of volume. The
+    wall x = 1 has a ripple of so many half waves, straight between its crests."""
     bricks = block(n, moved)
     triangle = [f"(1 - 2*acos(cos({waves}*pi*{v}))/pi)" for v in "yz"]
     wall = f"1/(1 - 0.25*t) - 1 + {RIPPLE / waves!r}*min(1, 20*t)*" + "*".join(triangle)
@@ -934,7 +935,7 @@ def die(n: int, law: str, element: str) -> tuple[Solution, list[float]]:
 
 
 def volume(corners: Array) -> float:
-    """Of a trilinear brick, by eight points."""
+    """Returns the volume of a trilinear brick, by eight points."""
     x, y, z = numpy.array([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]).T
     total = 0.0
     for a, b, c in numpy.ndindex(2, 2, 2):

@@ -46,10 +46,10 @@ MEAN = sum(MEASURED) / 3
 
 
 class Result(NamedTuple):
-    """Of a run: `heights` of the rim above the bottom at `angles` to the rolling direction [mm, degrees];
-    draw-in (DX, DD, DY) and depth when their mean is that of the laboratories [mm]; maximum `force` of the
-    punch on the whole cup [kN]; `drift` of the energies over the largest sum; `steps`, `iterations`, CPU
-    `seconds`."""
+    """Result of a run: `heights` of the rim above the bottom at `angles` to the rolling direction [mm,
+    degrees]. Draw-in (DX, DD, DY) and depth when their mean is that of the laboratories [mm]. Maximum `force`
+    of the punch on the whole cup [kN]; `drift` of the energies over the largest sum; `steps`, `iterations`,
+    CPU `seconds`."""
 
     angles: list[float]
     heights: list[float]
@@ -68,7 +68,7 @@ class Result(NamedTuple):
         return float(numpy.mean([self.height(angle) for angle in numpy.linspace(0, 90, 181)]))
 
     def ears(self) -> int:
-        """Of the whole rim: pieces that are above the mean."""
+        """Returns the number of pieces of the whole rim above the mean."""
         above = [self.height(abs((angle + 90) % 180 - 90)) > self.mean() for angle in numpy.arange(0.25, 360)]
         return sum(a and not b for a, b in zip(above, above[-1:] + above[:-1]))
 

@@ -42,7 +42,7 @@ LINE = re.compile(r"^(\S+): (\d+) files, (\d+) refused, (\d+) unsound, longest (
 
 
 class Counts(NamedTuple):
-    """What came of the files of a target."""
+    """Outcomes of the files of a target."""
 
     n_files: int
     n_refused: int

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the default element and the default contact cost: every shipped scene, beside the same with mean
-dilatation and penalties alone, the defaults of before."""
+"""Measures the cost of the default element and the default contact: every shipped scene, beside the same with
+mean dilatation and penalties alone, the former defaults."""
 
 from __future__ import annotations
 

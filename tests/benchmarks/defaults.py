@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How far the defaults are off: every shipped scene without any numerical parameter, beside a mesh twice as
-fine with small steps and tight contact."""
+"""Measures the error of the defaults: every shipped scene without any numerical parameter, beside a mesh
+twice as fine with small steps and tight contact."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from curve_runs import CurveRun, error, impulses, with_curves, write_csv
 options = arguments("defaults", has_scenes=True)
 LIMIT = 0.03  # of the force
 
-# What is physics, or output, in the sections that are numerical otherwise.
+# Physics and output in sections whose other parameters are numerical.
 KEPT = {
     "Time stepping": ("Scheme", "End time", "Stops"),
     "Contact pairs": (
@@ -76,7 +76,7 @@ SAME = ("patch_test", "patch_test_cut")  # a uniform stress, which any mesh has
 
 
 def numerical(entries: Mapping[str, str]) -> dict[str, object]:
-    """What the scene sets and need not: {key: None}."""
+    """Returns the numerical settings of the scene, which it can do without: {key: None}."""
 
     def is_numerical(key: str) -> bool:
         section, name = key.split("/")[0], key.split("/")[-1]

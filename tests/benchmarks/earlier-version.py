@@ -25,7 +25,7 @@ COMMIT = "f6fd959e"  # the last one before the classes were divided
 BEFORE = os.environ.get("BILLET_BEFORE", "")
 ALLOWED = 1e-10
 ALLOWED_INSTRUCTIONS = 0.03
-# Of the scenes at the extremes. BILLET_PART=1/1 takes all, for about two hours; what ran is kept.
+# Part of the scenes at the extremes. BILLET_PART=1/1 runs all, for about two hours; finished runs are kept.
 PART = os.environ.get("BILLET_PART", "1/32")
 
 # Parts of long runs.
@@ -244,7 +244,7 @@ def outcomes(program: str, version: Path, chosen: list[str]) -> dict[str, tuple[
 
 
 def compare_outcomes(earlier: Path) -> list[dict[str, tuple[str, str]]]:
-    """Those of a part of the earlier plan, with both programs."""
+    """Returns the outcomes of a part of the earlier plan, with both programs."""
     before = outcomes(BEFORE, earlier, ["--part", PART])
     whole = ["--part", PART] if PART == "1/1" else []  # names of all would be too long a command
     return [before, outcomes(PROGRAM, ROOT, whole or [part for name in before for part in ("--only", name)])]

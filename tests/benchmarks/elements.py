@@ -88,7 +88,8 @@ def evaluation_instructions(what: str) -> dict[tuple[str, str], float]:
 
 
 def instructions_of_run(text: str, column: str) -> tuple[int, int]:
-    """Of billet without what libraries do before it, and the last number in this column of the history."""
+    """Returns the instructions of billet without those of libraries before it, and the last number in this
+    column of the history."""
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder)
         (place / "scene.prm").write_text(text)
@@ -97,7 +98,7 @@ def instructions_of_run(text: str, column: str) -> tuple[int, int]:
 
 
 def instructions_of_each(text_of: Callable[[float], str], column: str) -> float:
-    """Of an iteration or a step: the difference of a short run and a longer one."""
+    """Returns the instructions of an iteration or a step: the difference of a short run and a longer one."""
     (short, few), (long, more) = (instructions_of_run(text_of(end), column) for end in (0.3, 1))
     return (long - short) / (more - few)
 
@@ -145,8 +146,8 @@ def explicit_scene(element: str, law: str) -> Callable[[float], str]:
 
 
 def beside_mean_dilatation(rows_of_runs: list[list[Any]]) -> list[list[str]]:
-    """What iterations and steps cost over those with mean dilatation, the default until 2026-11-22, and what
-    was wanted."""
+    """Returns the cost of iterations and steps over those with mean dilatation, the default until 2026-11-22,
+    and the limits set for it."""
     found, some = [], LAWS[:1] if options.quick else LAWS
     for law in some:
         each = {

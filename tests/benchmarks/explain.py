@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What `billet-trade --explain` says of four scenes, beside a study that refines each source twice."""
+"""Compares `billet-trade --explain` on four scenes with a study that refines each source twice."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What benchmarks of explicit scenes share: runs, their histories and their last pictures."""
+"""Shared parts of the benchmarks of explicit scenes: runs, their histories and their last pictures."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class ExplicitRun:
         return int(self.rows[-1]["step"]) if self.rows else 0
 
     def max_drift(self) -> float:
-        """Of the energy ledger, relative to the largest sum of energies."""
+        """Returns the maximum drift of the energy ledger, relative to the largest sum of energies."""
         return max_drift(read_history(self.folder / "results/history.csv"))
 
     def picture(self, number: int = -1) -> tuple[Array, Fields]:

@@ -17,7 +17,7 @@ rows = [[float(word) for word in line.split()] for line in said.splitlines()[1:]
 
 
 def exponent(column: int) -> float:
-    """Of the whole cost over n log n, fitted to all sizes: 0 where the two grow alike."""
+    """Returns the exponent of the whole cost over n log n, fitted to all sizes: 0 if both grow alike."""
     points = [(math.log(row[0]), math.log(row[column] / math.log(row[0]))) for row in rows]
     mean = [sum(values) / len(points) for values in zip(*points)]
     return sum((x - mean[0]) * (y - mean[1]) for x, y in points) / sum((x - mean[0]) ** 2 for x, _ in points)

@@ -10,9 +10,9 @@ MOST = 1.5  # times what the cheapest run by hand costs
 
 
 def beside_hand_set(works: Sequence[float], seconds: Sequence[float]) -> str:
-    """How many of the ratios of work, and of seconds, to the cheapest run by hand are at most MOST; NaN: no
-    run by hand is as accurate as that, so that there is nothing to compare with, and the try counts on
-    neither side."""
+    """Returns how many of the ratios of work, and of seconds, to the cheapest run by hand are at most MOST.
+    NaN: no run by hand is as accurate, so that there is nothing to compare with, and the run does not
+    count."""
     known = [w for w in works if not math.isnan(w)]
     times = [s for s in seconds if not math.isnan(s)]
     none = len(works) - len(known)

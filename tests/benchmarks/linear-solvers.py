@@ -39,7 +39,8 @@ def available_memory() -> int:
 def run(
     solver: str, size: int, penalty: str, tie: str, ranks: int, preconditioner: str = "softened"
 ) -> dict[str, float] | None:
-    """What the program prints, by name; None where the machine has too little memory, or the run failed."""
+    """Returns the output of the program by name; None if the machine has too little memory, or the run
+    failed."""
     name = "-".join([solver, str(size), penalty, tie, str(ranks), preconditioner])
     kept = options.keep / name if options.keep else None
     if kept and kept.exists():
@@ -134,7 +135,7 @@ for size in SIZES:
 
 
 def memory() -> str | None:
-    """Where MUMPS has not run: what it would need, by its growth."""
+    """Returns the memory that MUMPS would need where it has not run, by its growth."""
     found = {}
     for size in SIZES:
         for ranks in (1, options.ranks):

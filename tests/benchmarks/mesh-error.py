@@ -92,7 +92,7 @@ def press_fit(n: int, facet: float = 0.0) -> Changes:
 
 
 def press_fit_force() -> float:
-    """Of a quarter, by Lamé's pressure in plane strain."""
+    """Returns the force on a quarter, by Lamé's pressure in plane strain."""
     inner, fit, outer, interference, modulus = 10.0, 20.0, 30.0, 0.01, 2e5 / (1 - 0.3**2)
     pressure = modulus * interference / fit * (fit**2 - inner**2) * (outer**2 - fit**2)
     return math.sqrt(2.0) * fit * pressure / (2 * fit**2 * (outer**2 - inner**2))
@@ -121,7 +121,8 @@ def cylinder(n: int, facet: float = 0.0) -> Changes:
 
 
 def load_over_travel(run: CurveRun) -> Course:
-    """Of a load in proportion to time: its travel is what takes the work of deformation at that load."""
+    """Returns the course of a load in proportion to time; its travel follows from the work of deformation at
+    that load."""
     travel, before = 0.0, (0.0, 0.0)
     course: Course = [(0.0, (0.0,))]
     for time, (work,) in zip(run.times, run.energies["stored or dissipated"]):

@@ -72,7 +72,7 @@ subsection Time stepping
   set End time = 1e-9
 end
 """
-# What the program says of a deck, and the words of the page for it.
+# Messages of the program on a deck, and the words of the page for them.
 REASONS = (
     (r"elements of second order", "elements of second order"),
     (r"elements have the type", "plane, shell or fluid elements, or dashpots, which no mesh of bricks has"),
@@ -148,7 +148,7 @@ def beams(folder: Path) -> tuple[str, str]:
 
 
 class Mesh(NamedTuple):
-    """What is read from a deck."""
+    """Mesh that a program reads from a deck."""
 
     n_elements: int
     n_nodes: int

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What penetration alone takes of the forces by default, beside penalties of 10 E/h alone, which were the
-default before."""
+"""Measures the error of forces by penetration with the default contact, beside penalties of 10 E/h alone, the
+former default."""
 
 from __future__ import annotations
 

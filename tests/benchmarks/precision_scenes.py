@@ -28,7 +28,7 @@ class Reference(NamedTuple):
 
 
 class Job(NamedTuple):
-    """What CalculiX is asked: a name, the element, the contact, factors of the penalty, and of the number of
+    """Run of CalculiX: a name, the element, the contact, factors of the penalty, and of the number of
     increments."""
 
     name: str

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How the benchmark of the profiles runs the shipped scenes: cuts, references, and settings by hand."""
+"""Runs of the shipped scenes for the benchmark of the profiles: cuts, references, and settings by hand."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Iterator, Mapping
 from billet_runs import Changes  # finds billet_tools, too
 from billet_tools.scene import read_entries
 
-# What profiles set, in any scheme, and what contradicts it: scenes are run without it.
+# Settings of profiles, in any scheme, and those that contradict them: scenes are run without them.
 PROFILED = {
     "Time stepping": (
         "Step control",
@@ -191,7 +191,7 @@ def of_pairs(entries: Mapping[str, str], **values: object) -> dict[str, object]:
     }
 
 
-# Of static and implicit scenes: penetration tolerance, residual, and error tolerance of dynamics, tightest
+# For static and implicit scenes: penetration tolerance, residual, and error tolerance of dynamics, tightest
 # first; where contacts come and go the tightest may find no end.
 TIGHT = (
     (1e-5, 1e-10, 1e-6),

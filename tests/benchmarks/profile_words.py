@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the errors of profiles say, in words."""
+"""Sentences on the errors of profiles."""
 
 from __future__ import annotations
 

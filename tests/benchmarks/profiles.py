@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the profiles fast, balanced and accurate cost, and how far they are off, on every shipped scene."""
+"""Measures cost and error of the profiles fast, balanced and accurate, on every shipped scene."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What settings that have no table of their own cost and change: line search, predictor, forcing, symmetry of
-the model, smoothing of facets and the margin of their search, and which facets."""
+"""Measures cost and effect of settings that have no table of their own: line search, predictor, forcing,
+symmetry of the model, smoothing of facets and the margin of their search, and which facets."""
 
 from billet_runs import ROOT, Changes, arguments, number, percent, publish, table
 from curve_runs import error, run_all

@@ -38,8 +38,9 @@ MATERIAL = BODY + "Material/"
 
 
 class Result(NamedTuple):
-    """Of a run: `before` and `after` the tools are removed, positions (x, y) of the path's points; maximum
-    force of the punch, `drift` of the energies over the largest sum, `steps`, `iterations`, CPU `seconds`."""
+    """Result of a run: positions (x, y) of the path's points `before` and `after` the tools are removed.
+    Maximum force of the punch, `drift` of the energies over the largest sum, `steps`, `iterations`, CPU
+    `seconds`."""
 
     before: list[tuple[float, float]]
     after: list[tuple[float, float]]
@@ -93,7 +94,7 @@ def measure(text: str) -> list[object]:
 
 
 def angle(points: list[tuple[float, float]], i: int, j: int) -> float:
-    """Of the chord from one point to another, against x [degrees]."""
+    """Returns the angle of the chord from one point to another, against x [degrees]."""
     return math.degrees(math.atan2(points[j][1] - points[i][1], points[j][0] - points[i][0]))
 
 

@@ -44,7 +44,7 @@ cases = [
 ]
 planned = Counter(case.family for case in cases)
 if options.kept:
-    # What was stopped was compared with nothing.
+    # Stopped cases have no comparison.
     cases = [
         case
         for case in cases

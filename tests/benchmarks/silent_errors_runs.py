@@ -41,9 +41,9 @@ UNKNOWN = 0.25  # error of a reference without another one
 
 @dataclass(frozen=True)
 class Reference:
-    """What a run is compared with. `scene` is run for it, and `finer`, if the comparison fails: a run is
-    wrong only if it is off by what is allowed and twice the difference of both. Without scenes it is a closed
-    form, which the judge has."""
+    """Reference of a run: that of `scene`, and that of `finer` if the comparison fails. A run is wrong only
+    if its error exceeds the allowed one and twice the difference of both. Without scenes the reference is a
+    closed form, which the judge has."""
 
     scene: Sections | None
     finer: Sections | None = None
@@ -63,7 +63,7 @@ class Case:
 
 
 class Kept:
-    """What a run left: `code` (None: out of time), `stderr`, `history` (columns), `bodies` (means of
+    """Stored output of a run: `code` (None: out of time), `stderr`, `history` (columns), `bodies` (means of
     displacements and velocities at the end), `records`."""
 
     def __init__(self, record: Record) -> None:
@@ -156,7 +156,7 @@ class Runner:
             }
 
     def outcome(self, case: Case) -> tuple[str, str, dict[str, float]]:
-        """Of a case, why, and how far it is off: {reference: error}."""
+        """Returns the outcome of a case, its reason, and its errors: {reference: error}."""
         run = self.run(case.scene)
         if run.code is None:
             return "no end", f"after {SECONDS} s of a processor, time {last(run)}", {}

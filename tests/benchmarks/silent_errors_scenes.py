@@ -21,7 +21,7 @@ from silent_errors_runs import (
 )
 from billet_tools.output import Array
 
-# Of references: as good as exact, in small steps.
+# Settings of references: as good as exact, in small steps.
 EXACT = {
     "Force tolerance": 1e-5,
     "Energy tolerance": 1e-9,
@@ -496,8 +496,8 @@ def ironing() -> list[Case]:
 
 
 def pressed(shape: str, second: Any, scheme: str, penalty: float | None) -> Sections:
-    """On a plane, or on another of its kind, by a hundredth of its height; without a Poisson ratio the stress
-    is uniform."""
+    """Returns a scene of a body pressed on a plane, or on another of its kind, by a hundredth of its height.
+    Without a Poisson ratio the stress is uniform."""
     counts, size = {"slab": ((4, 4, 1), (4, 4, 0.05)), "block": ((3, 3, 3), (1, 1, 1))}[shape]
     solid = elastic(1000, 0.0, Density=None if scheme == "quasi-static" else 1e-3)
     height = size[2]
@@ -1315,7 +1315,7 @@ FAMILIES = {
     "friction account": friction_account,
 }
 
-# What each family is, and what its runs are compared with.
+# Description of each family, and the references of its runs.
 ABOUT = {
     "bending": (
         (

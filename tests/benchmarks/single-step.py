@@ -24,13 +24,13 @@ whole = {"Time stepping/Initial step": 1, "Time stepping/Maximum step": 1, "Outp
 
 
 def has_changed_tangent(run: Run) -> bool:
-    """Whether the exact tangent has taken over, as it does where steps cannot be cut any more."""
+    """Returns whether the exact tangent has taken over, as it does if steps cannot be cut any more."""
     return any(record["key"] == "exact-tangent" for record in run.records)
 
 
 def reach(changes: Changes, n: int) -> list[str]:
-    """Which of the steps of 1/n, 2/n, ... of the travel this tangent does alone, without a cut: the upsetting
-    to which it does all of them, and the largest that it does. It may take 60 iterations."""
+    """Returns the steps of 1/n, 2/n, ... of the travel that this tangent does alone, without a cut. These are
+    the upsetting up to which it does all of them, and the largest that it does. It may take 60 iterations."""
     done = []
     for i in range(1, n + 1):
         run = Run(

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Whether runs with a 'Target error' are as accurate as they should be, and what they cost beside runs set by
-hand."""
+"""Measures whether runs with a 'Target error' are as accurate as they should be, and their cost beside runs
+set by hand."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Implicit:
         }
 
     def by_hand(self) -> Iterator[tuple[str, dict[str, object]]]:
-        """What a user might set: equal steps, penalties as they are or augmented, tolerances."""
+        """Yields settings of a user: equal steps, penalties as they are or augmented, tolerances."""
         for n in STEPS:
             for depth, tolerance in ((None, 1e-2), (None, 1e-3), (1e-2, 1e-2), (1e-2, 1e-3), (1e-3, 1e-4)):
                 said = (
@@ -160,7 +160,7 @@ def time_again(scene: Implicit | Explicit, changes: Changes, run: CurveRun) -> N
 
 
 def start_seconds() -> float:
-    """What a run costs before it has read its scene."""
+    """Returns the seconds of a run before it has read its scene."""
     with tempfile.TemporaryDirectory() as folder:
         return min(Measured([PROGRAM, "--version"], folder).seconds for _ in range(TIMED))
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Whether runs with 'Target error of = everything' are as accurate as they should be, mesh included, and what
-they cost beside runs set by hand."""
+"""Measures whether runs with 'Target error of = everything' are as accurate as they should be, mesh included,
+and their cost beside runs set by hand."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Case(NamedTuple):
                 }
 
     def by_hand(self) -> Iterator[tuple[str, Changes]]:
-        """What a user might set: 27 settings at most."""
+        """Yields settings of a user: 27 at most."""
         if self.is_explicit:
             for level, penalty, safety in product(self.levels, (1, 3, 10), (0.9, 0.75)):
                 yield f"level {level}, penalty {penalty}, safety {safety:g}", {
@@ -322,7 +322,8 @@ class Try(NamedTuple):
         return self.run.seconds / by_hand
 
     def is_cheap(self, by_hand: float) -> bool:
-        """Where no run by hand is within the target, a run that is costs nothing too much."""
+        """Returns whether a run within the target costs little enough; it always does if no run by hand is
+        within the target."""
         if math.isnan(by_hand):
             return self.error <= self.target
         return self.error <= self.target and self.ratio(by_hand) <= ALLOWED_COST

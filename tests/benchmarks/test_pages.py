@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What benchmarks compute and say of what they ran."""
+"""Tests the computations of benchmarks, and their sentences on runs."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def texts_of(script: Path) -> Iterator[str]:
 
 class Sentences(unittest.TestCase):
     def test_what_scripts_write_is_short(self) -> None:
-        """As tests/prose.py asks of pages: the next run of a script must not write longer sentences."""
+        """The next run of a script must not write longer sentences than tests/prose.py allows on pages."""
         scripts = [*HERE.glob("*.py"), *(ROOT / "tests/extremes/extremes").glob("*.py")]
         scripts += (ROOT / "tools/billet_tools/trade").glob("*.py")
         for script in scripts:
@@ -83,7 +83,7 @@ class Counting(unittest.TestCase):
 
 class Levels(unittest.TestCase):
     def test_rules_of_the_program(self) -> None:
-        """As tests/output/body_levels.cc has them."""
+        """The rules are those of tests/output/body_levels.cc."""
         self.assertTrue(math.isnan(by_levels([], [0.1])))
         self.assertAlmostEqual(by_levels([0.03], [0.04, 0.01]), 0.01)  # of order 2
         self.assertAlmostEqual(by_levels([0.03], [0.4, 0.01]), 0.01)  # no higher one

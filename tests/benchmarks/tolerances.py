@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the default tolerances of Newton's method save, and how far they are off, beside those for comparisons
+"""Measures the savings and errors of the default tolerances of Newton's method, beside those for comparisons
 to many digits, on the shipped scenes of statics and implicit dynamics."""
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def same_steps(run: CurveRun, path: Path, cut: Changes) -> dict[str, object]:
 
 
 def last_change(run: CurveRun, other: CurveRun) -> float:
-    """Of the forces at the end, relative to them."""
+    """Returns the relative difference of the forces at the end."""
     ends = [(run.curves[name][-1], other.curves[name][-1]) for name in run.curves]
     size = sum(math.hypot(*b) for _, b in ends)
     return sum(math.dist(a, b) for a, b in ends) / size if size > 0 else math.nan

@@ -10,8 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# By the name of the picture: the scene, and what is asked of it. Small enough for some minutes each on one
-# core.
+# Scene and options by the name of the picture. Each takes some minutes on one core.
 SWEEPS: dict[str, tuple[str, str, list[str], list[list[str]]]] = {
     "billet_upsetting": (
         "billet_upsetting",
@@ -164,11 +163,11 @@ os.environ.setdefault("BILLET", str(ROOT / "build/release/bin/billet"))
 for name in options.names or SWEEPS:
     if name not in SWEEPS:
         sys.exit(f"scripts/benchmarks trade: unknown name '{name}' ({', '.join(SWEEPS)})")
-    scene, text, knobs, products = SWEEPS[name]
+    scene, text, values, products = SWEEPS[name]
     flags = [
         part for i, piece in enumerate(text.split("|")) for part in ([piece] if i % 2 else piece.split())
     ]
-    command = [sys.executable, "tools/billet-trade", f"prm/{scene}.prm", *flags, "--parameters", *knobs]
+    command = [sys.executable, "tools/billet-trade", f"prm/{scene}.prm", *flags, "--parameters", *values]
     for product in products:
         command += ["--product", *product]
     command += (

@@ -87,10 +87,10 @@ def apart_by(p: Array, q: Array, r: Array, s: Array) -> Array:
 
 
 def crossings(tube: Tube, tolerances: Sequence[float] = (0.05 * WALL, 0.5 * WALL)) -> list[float]:
-    """Of the edges of boundary facets that go through other facets: how many do, how many deeper than the
-    tolerances, and how deep at most. As deep is what would part the two: the distance of the nearer end of
-    the edge from the facet's plane, or of the edge from one of the facet's edges. Penalty contact lets them
-    in by a little."""
+    """Counts the edges of boundary facets that go through other facets: all, those deeper than the
+    tolerances, and the maximum depth. The depth is the distance that would separate them: of the nearer end
+    of the edge from the facet's plane, or of the edge from one of the facet's edges. Penalty contact allows a
+    little."""
     quads = tube.facets
     edges = numpy.unique(
         numpy.sort(numpy.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1), axis=0
@@ -179,7 +179,8 @@ def distance_from_triangle(point: Array, triangles: Array) -> Array:
 
 
 def inside_brick(corners: Array, x: Array) -> Array | None:
-    """Whether the trilinear map of the brick has x inside, by Newton's method: its parameters, or None."""
+    """Returns the parameters of x in the trilinear map of the brick, by Newton's method; None if x is
+    outside."""
     xi = numpy.full(3, 0.5)
     signs = numpy.array([[a & 1, (a >> 1) & 1, (a >> 2) & 1] for a in range(8)])
     for _ in range(12):

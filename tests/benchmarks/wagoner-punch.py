@@ -64,7 +64,8 @@ def tangents() -> str:
 
 
 def residuals() -> str:
-    """Of the first step of 1.5 % of the travel that ends past a third of it."""
+    """Returns a table of the residuals in the first step of 1.5 % of the travel that ends past a third of
+    it."""
     rows = []
     for tangent in ("exact", "consistent"):
         r = run({**coarse, TANGENT: tangent, STEP + "Maximum step": 0.015, "Output/Verbosity": "iterations"})
@@ -180,7 +181,8 @@ def friction() -> str:
 
 
 def peaks() -> str:
-    """Where the blank strains most, over travel and friction, and how much its centre does."""
+    """Returns a table of the places of the maximum strain over travel and friction, with the strain of the
+    centre."""
     rows = []
     for travel in (10, 20, 22.5, 23, 30, 35, 40):
         shapes = [run_with_shape({"Time stepping/End time": repr(travel / TRAVEL)}, mu)[1] for mu in SCENES]

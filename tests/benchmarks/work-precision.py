@@ -58,7 +58,7 @@ class Row(NamedTuple):
 
 
 class Result(NamedTuple):
-    """What a run has given: steps, iterations, seconds, the compared curve, why it stopped."""
+    """Result of a run: steps, iterations, seconds, the compared curve, and the reason of its end."""
 
     steps: int
     iterations: int

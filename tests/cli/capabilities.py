@@ -97,7 +97,7 @@ FOLDS = (
 
 
 class Case(NamedTuple):
-    """What a scene pays for."""
+    """Scene, and the capabilities that it uses."""
 
     name: str
     base: str

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the tests of the command line share: checks, runs with limits, and what a run left in its folder."""
+"""Shared parts of the tests of the command line: checks, runs with limits, and files in a run's folder."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def rows_of(file: str | Path) -> list[list[str]]:
 
 
 class Fault(Exception):
-    """What is wrong with what was checked."""
+    """Failure of a check, with its reason."""
 
 
 class Checks:

@@ -81,7 +81,7 @@ def _() -> None:
     inside = [row for row in rows if abs(row["time"] - 1) < 1e-9]
     equal("steps at the end of the way in", len(inside), 1)
     equal("force on the catch", abs(inside[0]["catch.force_x"]) + abs(inside[0]["catch.force_y"]), 0.0)
-    # What was spent on the way went into friction.
+    # Friction dissipates the work of the way.
     near("friction", inside[0]["friction_dissipation"], inside[0]["external_work"], 1e-2)
     check_climb([row for row in rows if row["time"] > 1], REMOVAL, "heel")
 

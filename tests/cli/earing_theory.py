@@ -91,7 +91,7 @@ class Cup(NamedTuple):
         return heights
 
     def draw_ins_of_same_stress(self, mean: float) -> tuple[float, float, float]:
-        """As draw_ins(), but of rings of the same stress."""
+        """Returns the draw-in as draw_ins() does, but for rings of the same stress."""
         logs = numpy.linspace(0, math.log(self.blank / self.wall), 1001)
         stretches = self.stretches_of_same_stress(logs)
         step = (self.blank - self.wall) / 400

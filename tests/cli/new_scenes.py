@@ -145,7 +145,7 @@ def _() -> None:
         equal(f"wide lines of {name}", wide, [])
 
 
-# How a scene of block.prm names an entry of each list, KEY = NAME.
+# Edits by which a scene of block.prm names an entry of each list, KEY = NAME.
 USES = {
     "primitives": "Mesh: - Arguments & Mesh: - Boundary ids & Mesh: {}",
     "materials": "Material: - Hardening & Material: {}",

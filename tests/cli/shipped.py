@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the tests of shipped scenes share: length, history, balance of forces, pages."""
+"""Shared parts of the tests of shipped scenes: length, history, balance of forces, pages."""
 
 from __future__ import annotations
 

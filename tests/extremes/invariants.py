@@ -1017,7 +1017,7 @@ class Told(unittest.TestCase):
 
 
 def write_warnings(work: Path, *keys: str) -> None:
-    """What a run would have left of these warnings."""
+    """Writes the messages of a run with these warnings."""
     (work / "results").mkdir(exist_ok=True)
     (work / "results/diagnostics.jsonl").write_text(
         "".join(
@@ -1247,7 +1247,7 @@ class Running(unittest.TestCase):
         self.assertEqual(report.soft_by_default(turned), {"drag/facets=planed"})
         self.assertEqual(report.safe(turned, "nu", {"drag/facets=planed"}), "0 to 0.3")
         self.assertEqual(report.safe(turned, "nu", {"drag"}), "-")
-        # What is never turned alone is told of its pairs.
+        # A parameter that never changes alone gets the range of its pairs.
         self.assertEqual(report.safe(records, "nu"), "0.49, in pairs")
         self.assertEqual(report.safe(records, "aspect"), "")
 

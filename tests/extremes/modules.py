@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where the modules are."""
+"""Adds the folder of the modules to the path."""
 
 import sys
 from pathlib import Path

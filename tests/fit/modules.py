@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where the tests find billet-fit."""
+"""Adds the folder of billet-fit's modules to the path."""
 
 import sys
 from pathlib import Path

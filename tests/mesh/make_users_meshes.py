@@ -226,7 +226,8 @@ def hexahedra(mesh: meshio.Mesh) -> numpy.ndarray:
 
 
 def oracle(file: pathlib.Path) -> Expected:
-    """What meshio reads: areas by names and by numbers of physical groups, or of sets of elements."""
+    """Returns the areas that meshio reads, by names and by numbers of physical groups, or of sets of
+    elements."""
     mesh = meshio.read(file)
     cells = hexahedra(mesh)
     exterior = exterior_faces(cells)
@@ -260,7 +261,7 @@ BESIDE = ["-part", "2", "-save_parametric", "-save_all"]
 
 
 def expected_of(form: str, base: Expected) -> Expected:
-    """What a format keeps of the groups."""
+    """Returns the groups that a format keeps."""
     n_cells, n_nodes, volume, areas = base
     if form.startswith("vtk"):
         areas = {}
@@ -288,7 +289,7 @@ def make_read(texts: list[str]) -> None:
     for geometry_name, (geometry, forms, arguments) in READ.items():
         with tempfile.TemporaryDirectory() as folder:
             twin = pathlib.Path(folder) / "twin.msh"
-            # What is saved beside does not matter to meshio's reading, or it cannot read it.
+            # Additional data does not matter to meshio's reading, or it cannot read it.
             gmsh(geometry, "msh22", [a for a in arguments if a not in BESIDE], twin)
             base = oracle(twin)
         for form in forms:
@@ -317,7 +318,7 @@ def make_refused(texts: list[str]) -> None:
 
 
 def section_oracle(file: pathlib.Path) -> Expected:
-    """What meshio reads of a two-dimensional mesh: area, and lengths by names and numbers of groups."""
+    """Returns the area of a two-dimensional mesh by meshio, and lengths by names and numbers of groups."""
     mesh = meshio.read(file)
     cells = numpy.concatenate([block.data for block in mesh.cells if block.type == "quad"])
     x = mesh.points[cells]

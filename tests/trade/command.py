@@ -174,7 +174,7 @@ class TestCommand(unittest.TestCase):
         different = {row["changes"]: int(row["timed"]) for row in points}
         self.assertLess(whole - before, sum(int(row["timed"]) for row in rows))
         self.assertGreater(len(different), 12)
-        # What others dominate is not timed again.
+        # Dominated points are not timed again.
         self.assertEqual(
             {int(row["timed"]) for row in points if row["on_front"] == "1" or row["kind"] == "scene"}, {2}
         )
@@ -218,7 +218,7 @@ class TestCommand(unittest.TestCase):
             found["mesh", "1"]["changes"], "Bodies/bar/Mesh/Layers = 4 ; Bodies/bar/Mesh/Refinements = 1"
         )
 
-        # What failed says so, has no error, and is neither on the front nor chosen.
+        # A failed run says so, has no error, and is neither on the front nor chosen.
         failed = {
             ("tangent", "continuum"): "diverged",
             ("tangent", "symmetrised lower"): "locked",
@@ -431,7 +431,7 @@ class TestCommand(unittest.TestCase):
         self.assertEqual((none.returncode, self.runs()), (3, 25), none.stderr)
 
     def test_budget(self) -> None:
-        """Of a sweep: what it does not reach is named, and what was stopped gives a page."""
+        """A sweep names the points beyond its budget, and writes a page if it is stopped."""
         sweep = ("--parameters", "penalty=3,10", "steps=20,40", "predictor=tangent", "--repeat", "1")
         few = self.trade(*sweep, "--folder", "limited", "--budget", "11 runs")
         self.assertEqual((few.returncode, self.runs()), (0, 11), few.stderr)
@@ -746,7 +746,7 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(choices["elasticity"], listed("materials", "Elasticity"))
 
     def test_factors_of_what_a_profile_sets(self) -> None:
-        """What the program itself says that it sets."""
+        """Factors apply to the values of a profile by the program's own report."""
         (self.folder / "fast.prm").write_text(
             "set Profile = fast\n"
             + read_scene(ROOT / "prm/taylor_bar.prm").replace("set Normal penalty", "# ")

@@ -129,7 +129,7 @@ class TestSources(unittest.TestCase):
             self.assertIn("too small to reduce", explained([found], Run(1.0)).bars[0].method)
 
     def test_penetration_after_a_ramp(self) -> None:
-        """What is left of an initial penetration in a ramp is not that of the contact."""
+        """The rest of an initial penetration during a ramp is not that of the contact."""
         ramp = {"Contact pairs/top/Initial penetration": "ramp", "Contact pairs/top/Ramp time": 0.5}
         self.assertEqual(sources.end_of_ramps(Scene(BAR, DEFAULTS)), 0.0)
         begin = sources.end_of_ramps(Scene(BAR, DEFAULTS).changed(ramp))
@@ -193,7 +193,7 @@ class TestSources(unittest.TestCase):
         self.assertTrue(math.isinf(found["elements"].ratio))
 
     def test_order_of_runs(self) -> None:
-        """What tells most for its cost comes first."""
+        """The runs that tell most for their cost come first."""
         variants = [(Source("a", None, weight=w), Variant("", {}, {})) for w in (8.0, 3.0, 1.0)]
         self.assertEqual(in_order(variants, [16.0, 1.0, 1.0]), [1, 2, 0])
         self.assertEqual(in_order(variants, [1.0, 1.0, 1.0]), [0, 1, 2])
@@ -292,7 +292,7 @@ class TestBars(unittest.TestCase):
         self.assertIn("A difference of 60 % is too large to extrapolate", words)
         self.assertNotIn("for want of a run", words)  # the geometry is in the mesh's bar
         self.assertNotIn("too large", " ".join(explained(found, Run(1.0), fine=Run(1.2)).words()))
-        # What may be known better is another one than that in use.
+        # The output that may be known better differs from the one in use.
         self.assertIn("Other --outputs, such as shape, may be known better", words)
         runs = {"fine": cast(Result, Run(1.3))}
         shape = Explanation(

@@ -36,7 +36,7 @@ class TestErrorPart(unittest.TestCase):
         self.assertAlmostEqual(steep.left or 0.0, 0.7 / 4 / 3)
 
     def test_two_results(self) -> None:
-        """Those of order 1 are exact; those of orders 1/2 and 2 are at the ends of the range."""
+        """Results of order 1 are exact; those of orders 1/2 and 2 are at the ends of the range."""
         self.assertAlmostEqual(self.part(None, 1.1, 1.05).error, 0.1)
         self.assertAlmostEqual(self.part(1.2, 1.1, None).error, 0.1)
         self.assertIsNone(self.part(1.2, 1.1, None).left)

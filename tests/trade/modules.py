@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where the tests find billet-trade."""
+"""Adds the folder of billet-trade's modules to the path."""
 
 import sys
 from pathlib import Path

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What runs are judged to be, what they are ranked by, what is said of them, and the picture, on points that
-are made up."""
+"""Tests how runs are judged and ranked, the sentences on them, and the picture, on made-up points."""
 
 from __future__ import annotations
 

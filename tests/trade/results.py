@@ -51,7 +51,7 @@ def join(a: Fields, b: Fields) -> Fields:
 
 
 class MadeUp:
-    """What an output asks a result for."""
+    """Result with everything that an output reads."""
 
     def __init__(self, fields: Fields | None = None, history: Mapping[str, ArrayLike] | None = None) -> None:
         self.fields, self.history = fields, {k: numpy.array(v, float) for k, v in (history or {}).items()}
@@ -195,12 +195,12 @@ class TestForce(unittest.TestCase):
         # Long steps are judged at their ends, where they were computed: no error of interpolation.
         self.assertAlmostEqual(force.error(self.run_with(4, 1.03), exact), 0.03)
         self.assertAlmostEqual(force.error(self.run_with(1, 1.03), exact), 0.03)
-        # What lies before the first step of the reference is nobody's fault.
+        # Times before the first step of the reference count for no run.
         self.assertLess(force.error(self.run_with(200, 1.0, 5.0), exact), 1e-9)
 
     def test_corners(self) -> None:
-        """Of curves with a corner where all steps end runs are judged by what they are off, not by what
-        interpolation makes of it."""
+        """Runs are judged by their own errors, not those of interpolation, if all steps end at a corner of
+        the curve."""
 
         def run(n: int, off: float) -> results.Result:
             times = numpy.arange(1, n + 1) / n

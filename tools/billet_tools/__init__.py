@@ -17,7 +17,7 @@ from __future__ import annotations
 
 
 class UserError(Exception):
-    """What the user is told, and the exit code: 2 for bad input, 3 where no answer could be reached."""
+    """Error message for the user, with the exit code: 2 for bad input, 3 if no answer could be reached."""
 
     def __init__(self, message: str, code: int = 2) -> None:
         super().__init__(message)

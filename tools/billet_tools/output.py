@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a run of billet writes: history, estimates of errors, fields."""
+"""Reads the output of a run of billet: history, error estimates, fields."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ FAILED = 3  # the solution did
 
 
 class Stopped(Exception):
-    """By Ctrl-C."""
+    """Ctrl-C of the user."""
 
 
 def find_program(named: str | None, beside: str | None = None) -> Path:
@@ -123,7 +123,7 @@ class Measured:
             if limit:
                 resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
 
-        # Not by the usage of all children: others may run beside this one.
+        # The usage of all children would count those that run beside this one.
         with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
             process = subprocess.Popen(
                 command,

@@ -180,7 +180,7 @@ class Scene:
 
     @property
     def has_general_contact(self) -> bool:
-        """Whether everything touches everything."""
+        """Returns whether general contact is on: all surfaces may touch each other."""
         return self.entries.get("Contact") == "all"
 
     @property
@@ -206,12 +206,12 @@ class Scene:
 
     @property
     def is_explicit(self) -> bool:
-        """Whether steps are explicit."""
+        """Returns whether steps are explicit."""
         return self.scheme == "explicit"
 
     @property
     def is_dynamic(self) -> bool:
-        """Whether bodies have inertia."""
+        """Returns whether bodies have inertia."""
         return self.scheme != "quasi-static"
 
     @property

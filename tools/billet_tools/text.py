@@ -36,7 +36,7 @@ def table(head: Sequence[object], rows: Iterable[Sequence[object]]) -> str:
 
 # A word; code, formulas and links are one.
 _WORD = re.compile(r"(?:`[^`]*`|\$[^$]+\$|!?\[[^\]]*\]\([^)]*\)|\S)+")
-# What would be a mark at the start of a line.
+# Words that Markdown takes for a mark at the start of a line.
 _NEVER_FIRST = re.compile(r"[-*+]$|\d+[.)]$|[#|>]|={3}|-{3}|`{3}|~{3}|:::")
 _ITEM = re.compile(r"\s*(?:[-*+]|\d+[.)])\s+")
 _FENCE = re.compile(r"\s*(?:`{3}|~{3}|\${2}$)")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a study may take, in runs or in seconds on the clock."""
+"""Limits a study in runs or in elapsed seconds."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Budget:
 
     @property
     def is_of_runs(self) -> bool:
-        """Whether all runs cost the same."""
+        """Returns whether all runs cost the same."""
         return math.isfinite(self.runs)
 
     @property
@@ -51,8 +51,8 @@ class Budget:
         return self.seconds - (time.monotonic() - self._begin)
 
     def take(self, expected: float, runs: int = 1) -> bool:
-        """Whether runs that should last `expected` seconds together fit into what is left; if they do, they
-        are counted."""
+        """Returns whether runs of `expected` seconds together fit into the budget; if they do, counts
+        them."""
         with self._lock:
             if runs > self.runs or expected > self.seconds_left():
                 return False

@@ -106,7 +106,7 @@ def by_program(scene: Scene, target: float) -> list[Candidate]:
 
 
 class Cheapest:
-    """What the candidates gave, and the choice among them."""
+    """Results of the candidates, and the choice among them."""
 
     def __init__(
         self,
@@ -135,7 +135,7 @@ class Cheapest:
 
     @property
     def is_shown(self) -> bool:
-        """Whether the choice is within the target wherever the limit is in its range."""
+        """Returns whether the choice is within the target wherever the limit is in its range."""
         return self.chosen is not None and self.chosen.error + self.uncertainty <= self.target
 
     def words(self) -> str:

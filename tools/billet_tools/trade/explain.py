@@ -54,9 +54,9 @@ Usable = Tuple[Source, Variant, Scene]
 def without_odd_level(
     usable: Sequence[Usable], elements: int, runner: Runner
 ) -> tuple[list[Usable], Usable | None]:
-    """Those without a coarser mesh that is no whole level, as where five layers became two, if there is a
-    finer one: beside that its difference would feign an order. It is returned, too, for want of the finer
-    one."""
+    """Removes a coarser mesh that is no whole level, such as two layers in place of five, if there is a finer
+    one; the difference of such meshes has no order. Returns the removed one, too, in case the finer one
+    fails."""
     counts = {variant.label: runner.elements(changed) for _, variant, changed in usable}
     for item in usable:
         source, variant, _ = item
@@ -150,7 +150,7 @@ def explain(
 
 
 def is_shallower(trial: Result, base: Result, begin: float) -> bool:
-    """Whether penetration is less from a time on in some contact, and more in none."""
+    """Returns whether penetration from a time on is smaller in some contact, and larger in none."""
     before, after = base.depths(begin), trial.depths(begin)
     ratios = [after[name] / depth for name, depth in before.items() if name in after and depth > 0.0]
     return bool(ratios) and max(ratios) < 1.001 and min(ratios) < 0.999

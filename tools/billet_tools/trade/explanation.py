@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""How far off a scene is, and what makes it so: a bar for each source of error."""
+"""Estimates the error of a scene and its sources: a bar for each source of error."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Bar:
 
     @property
     def method(self) -> str:
-        """How the error follows from the runs."""
+        """Describes how the error follows from the runs."""
         if not self.is_known:
             return self.why
         said = self.source.finer.label if self.source.finer and self.left is not None else ""
@@ -177,7 +177,7 @@ class Explanation:
 
     @property
     def signed_sum(self) -> float:
-        """That of the corrections with their signs, over the runs of all sources."""
+        """Returns the size of the sum of all corrections with their signs."""
         total = {
             name: numpy.sum([bar.corrections[name] for bar in self.counted], axis=0) for name in self.values
         }
@@ -241,7 +241,7 @@ class Explanation:
         return "Other --outputs, such as shape,"
 
     def _estimate(self) -> str:
-        """What the run itself says."""
+        """Returns a sentence on the error that the run itself estimates."""
         own = self.base.estimates
         if not own:
             return "The run itself estimates no error."

@@ -89,8 +89,7 @@ def root_mean_square(vectors: Array, weights: Array) -> float:
 
 
 def without_rigid_motion(places: Array, displacements: Array, weights: Array) -> Array:
-    """What is left of displacements when the rotation and translation that fit best (Kabsch 1976) are taken
-    out."""
+    """Returns displacements less the rotation and translation that fit best (Kabsch 1976)."""
     w = weights[:, None] / numpy.sum(weights)
     moved = places + displacements
     start, end = places - numpy.sum(w * places, axis=0), moved - numpy.sum(w * moved, axis=0)
@@ -108,9 +107,9 @@ SAME_WAY = 0.75
 
 @dataclass
 class Limit:
-    """What a sequence goes to: `values`; `uncertainty` in the norm, NaN for a sequence of one; the `order`
-    that was used, None where the finest member was taken as it is; the one `observed`, None where there is
-    none; `differences` of neighbours in the norm."""
+    """Limit of a sequence: its `values`; the `uncertainty` in the norm, NaN for a sequence of one; and the
+    `order` used, None if the finest member is taken as it is. `observed` is the observed order, None without
+    one; `differences` are those of neighbours in the norm."""
 
     values: Array
     uncertainty: float
@@ -120,17 +119,18 @@ class Limit:
 
 
 def richardson(levels: Sequence[Array], ratio: float, norm: Callable[[Array], float]) -> Limit:
-    """The limit of a sequence of results from coarse to fine, each `ratio` times finer than the last
+    """Returns the limit of a sequence of results from coarse to fine, each `ratio` times finer than the last
     (Richardson 1911).
 
-    The order is observed in the last three, p = log(|f1 − f2| / |f2 − f3|) / log r. From 1/2 on it is
-    believed, up to 2, the highest of what is extrapolated here. Differences that go on so add up to |f2 − f3|
-    / (r^p − 1), whichever way they point: with a factor of 1.25 that is the uncertainty (Roache 1994, the
-    grid convergence index). A last difference smaller than an order of 2 makes of the one before may be so by
-    chance, and counts as that. The finest result is extrapolated where both differences point the same way,
-    |f1 − f3| nearly their sum; else it is taken as it is. Where no order is believed p = 1/2 stands for it, 3
-    |f2 − f3| for r = 2, which is also Roache's advice for two results.
-    """
+    The order is observed in the last three, p = log(|f1 − f2| / |f2 − f3|) / log r. It is used from 1/2 on,
+    up to 2, the highest order that is extrapolated here. If differences continue to fall at this order, the
+    rest adds up to |f2 − f3| / (r^p − 1), whatever their signs. With a factor of 1.25 that is the uncertainty
+    (Roache 1994, the grid convergence index).
+
+    A last difference smaller than order 2 predicts from the one before may be chance; the prediction then
+    replaces it. The finest result is extrapolated if both differences have the same direction, |f1 − f3|
+    nearly their sum; else it is taken as it is. Below order 1/2 the uncertainty assumes p = 1/2, which is 3
+    |f2 − f3| for r = 2, and also Roache's advice for two results."""
     finest = levels[-1]
     differences = [norm(b - a) for a, b in zip(levels, levels[1:])]
     if not differences:
@@ -173,14 +173,13 @@ ASSUMED_ORDER = 1.0  # of plastic flow, friction and contact, in steps and meshe
 def error_part(
     coarse: Array | None, given: Array, fine: Array | None, ratio: float, norm: Callable[[Array], float]
 ) -> Part:
-    """The error of `given`, by results with the source `ratio` times larger and smaller, one of which may be
-    missing. An infinite ratio takes the source away.
+    """Returns the error of `given`, by results with the source `ratio` times larger and smaller, one of which
+    may be missing. An infinite ratio removes the source.
 
-    With three results the order is observed, and used from 1/2 to 2 as in richardson(): the error is the last
-    difference and what differences that fall so still add; the range goes from the last difference to 1.25
-    times the rest. Without an order, where differences do not fall, the larger one is a lower bound. With two
-    results the order is assumed to be 1, and the range is that of orders from 2 to 1/2.
-    """
+    With three results the order is observed, and used from 1/2 to 2 as in richardson(). The error is the last
+    difference and the rest that differences of this order add up to. The range goes from the last difference
+    to 1.25 times the rest. If differences do not fall, there is no order, and the larger one is a lower
+    bound. With two results the order is assumed to be 1, and the range is that of orders from 2 to 1/2."""
 
     def tail(order: float) -> float:
         return 1.0 / (float(ratio**order) - 1.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What is asked for on the command line. Needs Python alone, so that --help works everywhere."""
+"""Options of the command line. Needs Python alone, so that --help works everywhere."""
 
 from __future__ import annotations
 

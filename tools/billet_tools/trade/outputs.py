@@ -33,7 +33,7 @@ class Output(ABC):
         """Returns the size of values or of their differences."""
 
     def error(self, result: Result, reference_values: Array) -> float:
-        """Relative to the reference's own size."""
+        """Returns the error relative to the reference's own size."""
         return self.norm(self.values(result) - reference_values) / self.scale(reference_values)
 
     def scale(self, reference_values: Array) -> float:
@@ -58,13 +58,13 @@ def contact_forces(result: Result, scene: Scene) -> list[str]:
 
 
 def has_supports(scene: Scene) -> bool:
-    """Whether a body has a support."""
+    """Returns whether a body has a support."""
     return any(scene.names("Bodies", body, "Supports") for body in scene.names("Bodies"))
 
 
 def moves_support(scene: Scene) -> bool:
-    """Whether a support moves. The forces of supports at rest alone follow from the loads, whatever the
-    error."""
+    """Returns whether a support moves. The forces of supports at rest alone follow from the loads, whatever
+    the error."""
 
     def is_zero(text: str) -> bool:
         try:
@@ -120,7 +120,7 @@ class Force(Output):
         return of_tools or found or [c for c in result.history if ".force_" in c and ".support " in c]
 
     def _curve(self, result: Result) -> tuple[Array, Array]:
-        """As the history has it, from a force of zero at time zero on."""
+        """Returns times and forces of the history, with a force of zero at time zero."""
         times = result.history["time"]
         forces = numpy.stack([result.history[c] for c in self.columns], -1)
         if times[0] > 0.0:
@@ -153,7 +153,8 @@ class Force(Output):
         return measure.mean_length(forces - exact, weights) / measure.mean_length(exact, weights)
 
     def excess(self, result: Result, reference_values: Array) -> float:
-        """How much larger the mean force is than the reference's, as part of it: what locking shows in."""
+        """Returns the relative difference of the mean force from the reference's; it is positive if elements
+        lock."""
         return self.norm(self.values(result)) / self.norm(reference_values) - 1.0
 
 
@@ -182,8 +183,7 @@ class Energy(Output):
 
 
 class Profile(Output):
-    """Along a line in the undeformed bodies: the logarithmic stretch along it, or the equivalent plastic
-    strain."""
+    """Logarithmic stretch, or equivalent plastic strain, along a line in the undeformed bodies."""
 
     name, meaning = "strain", "L2 norm along the line"
     SEGMENTS = 40

@@ -18,13 +18,13 @@ Words = Callable[[str], list[str]]  # what the program allows for a path of a sc
 
 
 class CannotTurn(Exception):
-    """Why a parameter, or one of its values, is none in this scene."""
+    """Reason why the scene cannot use a parameter or one of its values."""
 
 
 @dataclass
 class Parameter:
-    """What is changed, and over which values. Those of a choice are the program's words for the parameter of
-    scenes at `path`, `without` some."""
+    """Parameter of a study with its values. A choice takes its values from the program's words for the
+    parameter of scenes at `path`, `without` some."""
 
     name: str
     meaning: str
@@ -34,7 +34,7 @@ class Parameter:
     without: tuple[str, ...] = ()
 
     def turned(self, scene: Scene, argument: str) -> Changes:
-        """make(), whose complaints about the argument name the parameter."""
+        """Calls make(); its errors about the argument name the parameter."""
         try:
             return self.make(scene, argument)
         except UserError as error:
@@ -56,7 +56,8 @@ def parameter(name: str, meaning: str, *arguments: object) -> Callable[[Maker], 
 def choice(
     name: str, meaning: str, path: str, without: tuple[str, ...] = ("automatic",)
 ) -> Callable[[Maker], Maker]:
-    """A parameter with the words of the program. In `path`, NAME stands for a name of the user."""
+    """Returns the decorator of a parameter with the words of the program. In `path`, NAME stands for a name
+    of the user."""
 
     def keep(make: Maker) -> Maker:
         PARAMETERS[name] = Parameter(name, meaning, [], make, path, without)
@@ -66,7 +67,7 @@ def choice(
 
 
 def known_parameters(words: Words) -> dict[str, Parameter]:
-    """All parameters, the choices with those values that the program allows."""
+    """Returns all parameters; choices have the values that the program allows."""
     return {
         name: (
             replace(known, arguments=[word for word in words(known.path) if word not in known.without])
@@ -98,7 +99,7 @@ def need(condition: object, why: str) -> None:
 
 # --- mesh -----------------------------------------------------------------------------------------
 
-# Of deal.II's generators: which arguments (from 0) are numbers of elements. Others are refined.
+# Arguments (from 0) of deal.II's generators that are numbers of elements. Other generators are refined.
 COUNTS = {
     "subdivided_hyper_rectangle": (0,),
     "subdivided_hyper_cube": (0,),
@@ -182,7 +183,7 @@ def explicit(scene: Scene) -> None:
 
 
 def longest_steps(scene: Scene) -> int:
-    """How many steps of the largest length the scene has."""
+    """Returns the number of steps of the maximum length in the scene."""
     key = "Initial step" if scene.get("Time stepping/Step control") == "fixed" else "Maximum step"
     return max(1, math.ceil(scene.end_time / scene.step(key) - 1e-9))
 
@@ -393,7 +394,7 @@ def make_margin(scene: Scene, argument: str) -> Changes:
 
 
 def newton_tolerance(tolerance: float) -> Changes:
-    """Of the force, and of the energy beside it: in the ratio of the defaults, 1e-6 and 1e-10."""
+    """Returns the tolerances of force and energy, in the ratio of the defaults, 1e-6 and 1e-10."""
     return {
         "Solver/Force tolerance": shown(tolerance),
         "Solver/Energy tolerance": shown(0.1 * tolerance**1.5),
@@ -425,7 +426,7 @@ def make_solver(scene: Scene, argument: str) -> Changes:
 
 
 def iterative(scene: Scene) -> Changes:
-    """The one the scene has, or the one that every matrix allows."""
+    """Returns the iterative solver of the scene, or else the one that every matrix allows."""
     solver = scene.get("Solver/Linear solver")
     return {} if solver in ("CG", "GMRES") else {"Solver/Linear solver": "GMRES"}
 
@@ -551,8 +552,7 @@ def asked_parameter(text: str, known: Mapping[str, Parameter]) -> Parameter:
 
 
 def reference_settings(scene: Scene) -> Changes:
-    """What no sequence goes to the limit of: the tolerances, set so tight that they do not count, and what is
-    exact."""
+    """Returns settings of the reference that no sequence converges: tight tolerances and exact options."""
     changes: dict[str, object] = {
         path: None for path in ("Profile", "Target error", *MESH_TARGET) if path in scene.entries
     }

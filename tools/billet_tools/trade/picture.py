@@ -207,7 +207,7 @@ def draw_front(
     front = [points[i] for i in pareto_front([cost(p) for p in points], [error(p) for p in points], u)]
     if not front:
         return
-    # All that is dominated lies to the right of and above this staircase.
+    # Dominated points lie to the right of and above this staircase.
     x, y = [cost(front[0])], [ceiling]
     for p, following in zip(front, front[1:] + [None]):
         x += [cost(p), cost(following) if following else 1e30]
@@ -264,7 +264,8 @@ def is_number(text: str) -> bool:
 def name_points(
     axes: Axes, sweep: Sweep, cost: Measure, u: float, band: float, notes: Sequence[Text]
 ) -> None:
-    """The values, those on the front first, where there is room beside points, notes and each other."""
+    """Labels points with their values, those on the front first, if there is room beside points, notes and
+    each other."""
     pixels = axes.transData.transform
     frame = axes.get_window_extent()
     taken = [note.get_window_extent().extents for note in notes if note.axes is axes]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What is run: the scene in pilot form, and the points of the sweep."""
+"""Plans the runs: the scene in pilot form, and the points of the sweep."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def pilot(scene: Scene, options: Options) -> Scene:
 
 
 def read_presets(checked: Mapping[str, Any]) -> dict[str, str]:
-    """{path: value} of what a profile or a target error sets in a scene, as --check --json says."""
+    """Returns {path: value} of settings by a profile or a target error, from --check --json."""
     return {path.replace(" / ", "/"): value for path, value in checked.get("presets", {}).items()}
 
 
@@ -65,7 +65,7 @@ def with_value(parameter: Parameter, target: float) -> Parameter:
 
 
 class Candidates:
-    """The parameters that were asked for, or all, and what the scene can use of them."""
+    """Parameters that the user named, or all, with the values that the scene can use."""
 
     def __init__(self, scene: Scene, runner: Runner, options: Options) -> None:
         self.scene, self.runner = scene, runner
@@ -93,9 +93,9 @@ class Candidates:
         self.taken: set[tuple[str, tuple[str, ...]]] = set()
 
     def changes(self, parameter: Parameter, argument: str) -> Changes:
-        """Of one value; raises CannotTurn with the reason."""
+        """Returns the changes of one value; raises CannotTurn with the reason."""
         changes = parameter.turned(self.scene, argument)
-        # Where one number is taken the others are; what is out of range the run itself tells.
+        # If the program takes one number, it takes others; the run itself reports one that is out of range.
         kind = (parameter.name, tuple(changes)) if is_number(argument) else None
         if kind is None or kind not in self.taken:
             _, against, _ = self.runner.check(self.scene.changed(changes))
@@ -106,7 +106,7 @@ class Candidates:
         return changes
 
     def values(self, parameter: Parameter) -> list[Value]:
-        """[(argument, changes)] that the scene can use."""
+        """Returns [(argument, changes)] that the scene can use."""
         found = []
         for argument in parameter.arguments:
             try:
@@ -118,7 +118,8 @@ class Candidates:
         return found
 
     def _ask(self) -> None:
-        """The program about all that values() will want to know, several at a time: what it says is kept."""
+        """Asks the program about all values of values() in advance, several at a time, and keeps its
+        answers."""
         scenes, kinds = [self.scene], set()
         for parameter in self.parameters:
             for argument in parameter.arguments:
@@ -134,8 +135,8 @@ class Candidates:
             list(pool.map(self.runner.check, scenes))
 
     def possible(self) -> list[tuple[Parameter, list[Value]]]:
-        """[(parameter, values)] of parameters with something to change: values that differ from the scene,
-        and not from each other."""
+        """Returns [(parameter, values)] of parameters with something to change: values that differ from the
+        scene, and not from each other."""
         self._ask()
         found = []
         for parameter in self.parameters:
@@ -167,7 +168,8 @@ class Candidates:
         return points
 
     def _combinations(self, product: Sequence[Parameter]) -> list[Point]:
-        """All that the program takes; later parameters see changes of earlier ones: a factor of a factor."""
+        """Returns all combinations that the program accepts. Later parameters see changes of earlier ones: a
+        factor of a factor."""
         points, against = [], []
         for arguments in itertools.product(*(parameter.arguments for parameter in product)):
             changed = self.scene

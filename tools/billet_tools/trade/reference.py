@@ -27,8 +27,8 @@ Mesh = tuple[tuple[str, str], ...]  # what a scene says of its meshes
 
 @dataclass
 class Axis:
-    """`levels` [(label, scene)] from coarse to fine, each `ratio` times finer; levels[centre] is the
-    centre."""
+    """Sequence of `levels` [(label, scene)] from coarse to fine, each `ratio` times finer; levels[centre] is
+    the centre."""
 
     name: str
     ratio: float
@@ -45,8 +45,8 @@ AFFORDABLE = {True: 150_000, False: 10_000}
 
 
 def mesh_factors(scene: Scene, wanted: str | None, count: Callable[[Changes], int]) -> list[float]:
-    """The wanted ones, which must have one ratio and hold 1; else 1, 2, 4 where count(changes) elements are
-    affordable, or else those of 0.5, 1, 2 that the mesh allows."""
+    """Returns the given factors, which must have one ratio and contain 1. By default they are 1, 2, 4 if
+    count(changes) elements are affordable, else those of 0.5, 1, 2 that the mesh allows."""
     if wanted:
         factors = sorted(
             parameters.number(f, "factors > 0, such as 0.5,1,2", "--reference-mesh")
@@ -148,8 +148,8 @@ class Plan:
         self.axes.append(Axis("mesh", factors[1] / factors[0], levels, factors.index(1.0)))
 
     def _add_penalty(self, scene: Scene) -> None:
-        """By augmentation where the scene augments, or where bodies touch in an implicit scene, whose
-        penalties and mesh errors do not add up well; else by the penalty."""
+        """Adds the axis of augmentation if the scene augments, or if bodies touch in an implicit scene.
+        Penalties and mesh errors do not add up well there. Else adds the axis of the penalty."""
         pairs = scene.pairs
         augmented = [pair for pair in pairs if self.centre.number(pair + "Penetration tolerance") > 0]
         if augmented:
@@ -184,8 +184,8 @@ class Plan:
             self.axes.append(Axis("penalty", 4.0, levels, 0))
 
     def _add_cross(self) -> None:
-        """One step away from the centre along all axes: to the coarser mesh, where there is one, for its
-        cost."""
+        """Adds the run one step away from the centre along all axes; along the mesh it is a coarser one if
+        possible, which costs less."""
         changes = {}
         self.neighbours = {}
         for axis in self.axes:
@@ -210,7 +210,7 @@ class Plan:
 
 
 class Row(NamedTuple):
-    """How an output of the reference came about along an axis."""
+    """Derivation of the reference of an output along an axis."""
 
     output: str
     axis: str
@@ -259,7 +259,7 @@ class Reference:
             for label, result in found:
                 if result is not None and result.status != "ok":
                     self.remarks.append(f"{label} {result.status}: {result.reason or 'no reason given'}")
-            # What is left must be neighbours, the centre among them.
+            # The remaining levels must be neighbours, the centre among them.
             low = high = axis.centre
             while low > 0 and has_ended(found[low - 1][1]):
                 low -= 1
@@ -337,8 +337,8 @@ class Reference:
                 )
 
     def mesh_alone(self, scene: Scene) -> dict[str, float] | None:
-        """{output: error} that the scene's mesh, with its elements, makes where all else is converged; None
-        where the reference has no such mesh."""
+        """Returns {output: error} of the scene's mesh and elements with all else converged; None if the
+        reference has no such mesh."""
         return self._mesh_errors.get(mesh_of(scene))
 
     def uncertainty_by_axis(self) -> list[tuple[str, str, float]]:
@@ -356,8 +356,8 @@ SPATIAL = ("Element", "Facets", "Passes", "Smoothing", "Target error of")
 
 
 def mesh_of(scene: Scene) -> Mesh:
-    """What the scene says of its meshes and of what stands on them, however it writes it: other elements make
-    other errors."""
+    """Returns the settings of the scene's meshes and elements, however the scene writes them. Other settings
+    have other mesh errors."""
     return tuple(
         sorted(
             (path, "".join(value.split()))

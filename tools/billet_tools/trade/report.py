@@ -25,13 +25,13 @@ Forces = Optional[tuple[Force, Reference]]  # a force, and the reference that kn
 
 @dataclass
 class Limits:
-    """Beyond which a run that came to its end failed all the same."""
+    """Limits beyond which a completed run counts as failed."""
 
     drift: float = 0.05  # of the energy balance, dynamic scenes
     penetration: float = 0.5  # of a facet
     locked: float = 0.2  # how much larger the mean force is than the reference's
     soft: float = 0.2  # how much smaller
-    # beyond which a run is of no use; a reference that is known no better ranks nothing
+    # a larger error makes a run useless; a reference with a larger uncertainty ranks nothing
     error: float = 0.5
 
 
@@ -65,13 +65,13 @@ class Point:
 
 
 def work_of(result: Result, elements: int, is_explicit: bool) -> float:
-    """Without regard to the machine: element updates, elements times steps, of explicit scenes; of others the
-    elements times Newton's and the linear solver's iterations."""
+    """Returns the work independent of the machine. For explicit scenes it is elements times steps. For others
+    it is elements times the iterations of Newton's method and of the linear solver."""
     last = elements * (result.steps if is_explicit else result.newton + result.linear)
     return last + result.coarser_work
 
 
-# What makes a reference better, by what is least known of it.
+# Advice for a better reference, by the source of its largest uncertainty.
 ADVICE = {
     "mesh": (
         "Finer meshes of the reference (--reference-mesh 1,2,4) tell more; --reference-mesh given leaves the"
@@ -163,7 +163,7 @@ def error_text(error: float, uncertainty: float) -> str:
 
 
 class Sweep:
-    """All points, the reference they are measured against, and what follows."""
+    """Points of a sweep, their reference, and the conclusions from them."""
 
     def __init__(
         self,
@@ -201,11 +201,10 @@ class Sweep:
         return point.seconds if self.cost == "seconds" else point.work
 
     def _find_cancellations(self, good: Sequence[Point]) -> None:
-        """{point: (error, by what)} of points that seem better than their meshes let them be, by more than
-        the uncertainty: than the error of the mesh alone, which the reference knows of its own meshes, or
-        than a point with a finer mesh and all else the same; and of points that seem clearly better than
-        their own meshes in the shortest steps. Errors of opposite sign take each other away there, which
-        another scene need not do."""
+        """Finds {point: (error, by what)} of points with less error than their meshes allow, by more than the
+        uncertainty. Such a point has less error than its mesh alone, which the reference knows of its own
+        meshes. Or it has less than a point with a finer mesh, or clearly less than its own mesh in the
+        shortest steps. Errors of opposite sign cancel there, which need not happen in another scene."""
         self.cancelled = {}
         for p in good:
             known = []
@@ -242,7 +241,7 @@ class Sweep:
                 self.cancelled[id(p)] = max(known)
 
     def ranked(self, point: Point) -> float:
-        """The error that a choice may rest on."""
+        """Returns the error by which points are compared: the expected one if errors cancel."""
         return max(point.error, self.cancelled.get(id(point), (0.0, ""))[0])
 
     def curves(self) -> dict[str, list[Point]]:
@@ -257,20 +256,23 @@ class Sweep:
         return max(self.ranked(point), self.uncertainty)
 
     def is_cheaper(self, point: Point) -> bool:
-        """Than the scene as written, beyond what timings scatter."""
+        """Returns whether a point is cheaper than the scene as written by more than the scatter of
+        timings."""
         return self.cost_of(point) * (1.0 + max(0.05, self.noise)) < self.cost_of(self.base)
 
     def _preference(self, point: Point) -> tuple[bool, float]:
-        """What decides where the timings do not: no errors that cancel, then the least work."""
+        """Returns the order of points whose timings do not differ: no cancelling errors first, then the least
+        work."""
         return id(point) in self.cancelled, point.work
 
     def _cheapest(self, points: Sequence[Point]) -> Point:
-        """Of those whose costs the timings do not tell apart, the one to be preferred."""
+        """Returns the preferred one of the points whose costs the timings do not distinguish from the
+        lowest."""
         least = min(map(self.cost_of, points))
         return min((p for p in points if self.cost_of(p) <= least * (1.0 + self.noise)), key=self._preference)
 
     def _allowed(self) -> float:
-        """What the target leaves for the error."""
+        """Returns the error that the target allows beside the reference's uncertainty."""
         return (self.target or 0.0) - self.uncertainty
 
     def _keeping(self) -> str:
@@ -279,8 +281,8 @@ class Sweep:
         )
 
     def purchases(self) -> list[Purchase]:
-        """By parameter: the point with the least error, and the cheapest whose error is no more than that of
-        the scene as it is written (or than the target, where that is larger)."""
+        """Returns by parameter the point with the least error, and the cheapest point within the bound. The
+        bound is the error of the scene as written, or the target if that is larger."""
         rows: list[Purchase] = []
         base = self.base
         if not base.is_good:
@@ -317,12 +319,12 @@ class Sweep:
         )
 
     def seems_better(self, point: Point) -> bool:
-        """Than the scene as written, by its error."""
+        """Returns whether the error of a point is smaller than that of the scene as written."""
         return not point.is_base and self.base.is_good and self.ranked(point) < self.ranked(self.base)
 
     def may_cancel(self, point: Point) -> str:
-        """A sentence where fewer elements have less error, which mesh and steps together may feign; else
-        nothing."""
+        """Returns a warning if fewer elements have a smaller error, since errors of mesh and steps may
+        cancel; else nothing."""
         if (
             id(point) in self.cancelled
             or not self.seems_better(point)
@@ -335,12 +337,12 @@ class Sweep:
         )
 
     def hint(self, point: Point) -> str:
-        """What a gain is worth that the reference is not known well enough for."""
+        """Returns a remark if the gain of a point is below the reference's uncertainty."""
         small = self.seems_better(point) and self.ranked(self.base) - self._floored(point) < self.uncertainty
         return " (a gain below the reference's uncertainty)" if small else ""
 
     def words(self) -> list[str]:
-        """What came out, in sentences for the console."""
+        """Returns the findings in sentences for the console."""
         said = self.findings()
         if self.failed():
             said.append(
@@ -386,7 +388,7 @@ class Sweep:
         ]
 
     def findings(self) -> list[str]:
-        """What came out of the good runs, in sentences."""
+        """Returns the findings from the good runs in sentences."""
         base, said = self.base, []
         u = self.uncertainty
         if self.is_blind:
@@ -496,7 +498,8 @@ class Sweep:
         )
 
     def lines(self) -> str:
-        """Of the choice, to paste into the scene; empty without one, or if the scene has them already."""
+        """Returns the lines of the chosen point to paste into the scene; empty without a choice, or if the
+        scene has them already."""
         return lines_to_paste(self.chosen.changes, self.scene) if self.chosen else ""
 
     # --- what is written ---
@@ -785,7 +788,7 @@ class Sweep:
 
 
 def but_the_mesh(point: Point) -> dict[str, str]:
-    """A point's scene without its meshes."""
+    """Returns a point's scene without its meshes."""
     return {path: value for path, value in point.scene.entries.items() if "/Mesh/" not in path}
 
 
@@ -794,18 +797,19 @@ STEPS = ("Time stepping/", "Implicit dynamics/Error tolerance", "Explicit dynami
 
 
 def but_the_steps(point: Point) -> dict[str, str]:
-    """A point's scene without what makes its steps."""
+    """Returns a point's scene without the settings of its steps."""
     return {path: value for path, value in point.scene.entries.items() if not path.startswith(STEPS)}
 
 
 def has_shorter_steps(point: Point, other: Point) -> bool:
-    """Clearly so: half as many again, in a scene that is the same otherwise."""
+    """Returns whether a point has at least 1.5 times the steps of another one in a scene that is the same
+    otherwise."""
     return point.result.steps >= 1.5 * other.result.steps and but_the_steps(point) == but_the_steps(other)
 
 
 def timing_noise(timings: Sequence[Sequence[float]]) -> float:
-    """Median over points of what repeated timings differ by, as part of their median; a fifth where nothing
-    was repeated."""
+    """Returns the median over points of the relative spread of repeated timings; a fifth if nothing was
+    repeated."""
     spreads = [(max(t) - min(t)) / max(1e-9, statistics.median(t)) for t in timings if len(t) > 1]
     return statistics.median(spreads) if spreads else 0.2
 

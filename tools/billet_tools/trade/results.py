@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a run gave, as it is kept: numbers, history and fields."""
+"""Results of a run as they are kept: numbers, history and fields."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ FACES = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (
 
 
 def output_settings(scene: Scene) -> Changes:
-    """What a measured run writes: its history, and fields at the start and the end."""
+    """Returns the output settings of a measured run: its history, and fields at the start and the end."""
     changes = {
         "Output/Folder": "results",
         "Output/Format": "vtu",
@@ -121,7 +121,7 @@ def collect(folder: Path, code: int | None, limit: float) -> dict[str, Any]:
         "limit": limit,
         "time": last,
         "steps": max(int(last_of("step")), int(value_of(error, "steps"))),
-        # With those of a step that failed for good, which no history has.
+        # They include those of a step that failed for good, which no history has.
         "newton": max(int(last_of("total_iterations")), int(value_of(error, "Newton iterations"))),
         "cuts": int(last_of("total_cuts")),
         "linear": int(numpy.sum(history.get("linear_iterations", 0))),
@@ -192,7 +192,7 @@ class Result:
         return read_history(self.folder / "history.csv")
 
     def depths(self, begin: float) -> dict[str, float]:
-        """The deepest penetration from a time on in facet sizes, by its column."""
+        """Returns the maximum penetration from a time on in facet sizes, by its column."""
         rows = self.history["time"] >= begin * (1.0 - 1e-9)
         columns = [name for name in self.history if name.endswith(".deepest_penetration")]
         return {n: float(numpy.max(self.history[n][rows])) / self.facet for n in columns if rows.any()}
@@ -244,7 +244,8 @@ class BodyMesh:
 
     @cached_property
     def volumes(self) -> Array:
-        """By the diagonals: exact for parallelepipeds, and no more than a weight here."""
+        """Returns volumes by the diagonals: exact for parallelepipeds, and otherwise good enough for
+        weights."""
         p = self.places[self.cells]
         edges = [
             p[:, [1, 2, 5, 6]].mean(1) - p[:, [0, 3, 4, 7]].mean(1),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Running billet. Whatever a run gives is kept in a folder named by a hash of scene, program and ranks, so
-that nothing is ever run twice: a sweep that was stopped goes on."""
+"""Runs billet. The result of a run is kept in a folder named by a hash of scene, program and ranks. No run is
+ever repeated: a sweep that was stopped continues."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Runner:
         self._lock.close()
 
     def prepared(self, scene: Scene) -> str:
-        """The text that is run: files by their full names."""
+        """Returns the text of the run's scene, with absolute names of files."""
         return variant(scene.text, {path: file for path, file in self.files.items() if path in scene.entries})
 
     def key(self, text: str) -> str:
@@ -99,20 +99,20 @@ class Runner:
         return known["scene"].get("elements", 0), re.sub(r"^scene:?\d*:? ?", "", why), known["scene"]
 
     def elements(self, scene: Scene) -> int:
-        """How many it has; scenes with the same meshes are asked once."""
+        """Returns the number of elements of a scene; scenes with the same meshes are checked once."""
         key = tuple(sorted((path, value) for path, value in scene.entries.items() if "/Mesh/" in path))
         if key not in self._elements:
             self._elements[key] = self.check(scene)[0]
         return self._elements[key]
 
     def finished(self, scene: Scene, repeat: int | None = None) -> bool:
-        """Whether nothing is left to do for it."""
+        """Returns whether a scene needs no more runs."""
         place = self.folder / "runs" / self.key(self.prepared(scene))
         kept = read_json(place / "result.json")
         return kept is not None and kept["status"] != "crashed" and self._enough(kept, repeat or self.repeat)
 
     def times_left(self, scene: Scene, repeat: int) -> int:
-        """How often it must run until it is timed that often."""
+        """Returns the number of runs until the scene has enough timings."""
         if self.finished(scene, repeat):
             return 0
         kept = read_json(self.folder / "runs" / self.key(self.prepared(scene)) / "result.json")
@@ -166,8 +166,8 @@ class Runner:
 
 
 class Progress:
-    """A line for each run, with the time to go: by the clock of the runs so far, and what size, steps and
-    repeats of the rest let expect."""
+    """Prints a line for each run, with the remaining time. It follows from the runs so far, and from size,
+    steps and repeats of the rest."""
 
     def __init__(
         self, base_elements: int, base_steps: int, base_clock: float, is_explicit: bool, jobs: int

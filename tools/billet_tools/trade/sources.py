@@ -16,7 +16,7 @@ MOST_STOPS = 2000  # steps of a scene whose times other runs are made to share
 
 
 class Variant(NamedTuple):
-    """A run: what it is, its changes, and those that a user would make for it."""
+    """Run with its label, its changes, and the changes that a user would make for it."""
 
     label: str
     changes: Changes
@@ -51,7 +51,7 @@ def midpoints(times: Sequence[float]) -> list[float]:
 
 
 def has_error_control(scene: Scene) -> bool:
-    """Whether estimates of errors choose the steps."""
+    """Returns whether error estimates control the steps."""
     return bool(scene.get("Target error")) or any(
         scene.number(path) > 0
         for path in ("Time stepping/Error tolerance", "Implicit dynamics/Error tolerance")
@@ -82,9 +82,8 @@ def same_steps(scene: Scene, times: Sequence[float]) -> Changes:
 
 
 class Given(NamedTuple):
-    """What is known of the scene before its sources are: the ends of its steps, the deepest penetration that
-    its contact leaves in facet sizes, and what --check says of it. Without them the sources are only counted.
-    """
+    """Data of the scene that its sources need: the ends of its steps, the maximum penetration of its contact
+    in facet sizes, and the answer of --check. Without them the sources are only counted."""
 
     times: Sequence[float] = (0.5, 1.0)
     penetration: float = math.nan
@@ -132,8 +131,8 @@ QUARTER = "a quarter of the penetration"
 
 
 def tolerance_of(scene: Scene, pair: str) -> float:
-    """Penetration tolerance of a pair in facet sizes; 0 of penalties alone, infinite of an automatic one,
-    which is none of a depth."""
+    """Returns the penetration tolerance of a pair in facet sizes: 0 for penalties alone, infinite for an
+    automatic one, which limits no depth."""
     tolerance = scene.get(pair + "Penetration tolerance")
     if tolerance == "":
         return 0.0 if scene.get(pair + "Normal penalty") else math.inf
@@ -141,15 +140,15 @@ def tolerance_of(scene: Scene, pair: str) -> float:
 
 
 def end_of_ramps(scene: Scene) -> float:
-    """The time from which no initial penetration is left that vanishes in a ramp; until then depths are not
-    those of the contact alone."""
+    """Returns the time from which no initial penetration is left that vanishes in a ramp; before, depths are
+    not those of the contact alone."""
     ramps = [pair for pair in scene.pairs if scene.get(pair + "Initial penetration") == "ramp"]
     return max((scene.number(pair + "Ramp time") for pair in ramps), default=0.0)
 
 
 def penetration_source(scene: Scene, given: Given) -> Source | None:
-    """By a quarter of the penetration: four times the penalty, or where contact is augmented a tolerance of a
-    quarter of what is left. It is never looser than the scene's own."""
+    """Returns the source whose finer run has four times the penalty. If contact is augmented, that run has a
+    quarter of the remaining penetration as tolerance, never more than a quarter of the scene's."""
     tolerances = {} if scene.is_explicit else {pair: tolerance_of(scene, pair) for pair in scene.pairs}
     augmented = [pair for pair, tolerance in tolerances.items() if tolerance > 0.0]
     changes: dict[str, object] = {}
@@ -219,8 +218,8 @@ UNKNOWN_GEOMETRY = "the error of its geometry is in that of the mesh, and cannot
 
 
 def moved_pair(before: Mapping[str, Any], after: Mapping[str, Any]) -> str:
-    """The first pair whose least gap at the start differs between two scenes, by what --check says of them;
-    '' if none does. A section that grows into its neighbour changes more than its area."""
+    """Returns the first pair whose least gap at the start differs between two scenes by --check; '' if none
+    does. A section that grows into its neighbour changes more than its area."""
 
     def gaps(checked: Mapping[str, Any]) -> dict[str, float]:
         pairs = checked.get("report", {}).get("pairs", [])
@@ -236,8 +235,8 @@ def moved_pair(before: Mapping[str, Any], after: Mapping[str, Any]) -> str:
 
 
 def geometry_source(scene: Scene, given: Given) -> Source | None:
-    """Of curved primitives, whose facets cut off volume. An extruded section can be scaled to the area of the
-    smooth one; for others the volume alone is told."""
+    """Returns the source of facets on curved primitives, which cut off volume. An extruded section can be
+    scaled to the area of the smooth one; for others only the volume is reported."""
     changes: dict[str, object] = {}
     remarks = []
     for body in given.checked.get("report", {}).get("bodies", []):
@@ -266,7 +265,7 @@ def geometry_source(scene: Scene, given: Given) -> Source | None:
 
 
 def sources_of(scene: Scene, given: Given) -> list[Source]:
-    """All of the scene. Other runs than those of the steps share the steps of the scene."""
+    """Returns all sources of the scene. Runs other than those of the steps share the steps of the scene."""
     optional = [penetration_source(scene, given), None if scene.is_explicit else iteration_source(scene)]
     found = [mesh_source(scene), geometry_source(scene, given), step_source(scene, given), *optional]
     present = [source for source in found if source is not None] + formulation_sources(scene)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The order of things: a sweep is planned, run, judged and written."""
+"""Runs a sweep: plans it, runs it, judges its points and writes them."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ NO_FORCE = "--outputs: the scene has no tool, no pair of bodies and no support, 
 
 
 def refuse_outputs(weights: Mapping[str, float], scene: Scene) -> None:
-    """What the scene cannot have, before anything runs."""
+    """Refuses outputs that the scene cannot have, before anything runs."""
     if "rebound" in weights and not scene.is_dynamic:
         raise UserError("--outputs: nothing rebounds in a static scene")
     if "force" in weights and not (scene.names("Tools") or scene.pairs or has_supports(scene)):
@@ -47,8 +47,8 @@ def refuse_outputs(weights: Mapping[str, float], scene: Scene) -> None:
 
 
 def make_force(options: Options, scene: Scene, centre: Result, finest: Result | None = None) -> Force | None:
-    """The force, whether it counts or only judges; None where there is none. Those of supports alone count
-    if they are asked for, or in statics if a support moves. `finest`: the run with the shortest steps."""
+    """Returns the force, whether it counts or only judges; None without one. Forces of supports alone count
+    if the user names them, or in statics if a support moves. `finest`: the run with the shortest steps."""
     columns = [c.strip() for c in options.force.split(",")] if options.force else None
     is_wanted = columns or "force" in read_outputs(options.outputs)
     has_force = (
@@ -63,9 +63,9 @@ def make_force(options: Options, scene: Scene, centre: Result, finest: Result | 
 def make_outputs(
     options: Options, scene: Scene, centre: Result, force: Force | None, as_estimated: bool = False
 ) -> tuple[list[Output], dict[str, float]]:
-    """The outputs that count, and their weights. If none are named, that is the force and the shape, or
-    `as_estimated` what runs estimate their errors of: the force, in dynamics the energy. Columns that are
-    named are forces that count."""
+    """Returns the outputs that count, and their weights. By default they are the force and the shape. With
+    `as_estimated` they are those of the runs' own estimates: the force, in dynamics the energy. Columns that
+    the user names are forces that count."""
     weights = read_outputs(options.outputs)
     if not weights and as_estimated and not options.line and (scene.is_dynamic or force):
         weights = {"energy" if scene.is_dynamic and not options.force else "force": 1.0}
@@ -95,8 +95,8 @@ def make_outputs(
 def judging_forces(
     plan: Plan, reference_results: Sequence[Result | None], force: Force | None, reference: Reference
 ) -> Forces:
-    """What tells locked and soft: (the force, the reference that knows it), whether it is among the outputs
-    or not; None where there is none to speak of."""
+    """Returns the force by which runs are judged as locked or soft, and the reference that knows it; None
+    without one. It need not be among the outputs."""
     if not force or "force" in reference.values:
         return (force, reference) if force else None
     try:
@@ -166,14 +166,14 @@ PROMISING = (
 
 
 def most_promising_first(points: Sequence[Point]) -> list[Point]:
-    """By parameter, the first values of each parameter before the others' further ones."""
+    """Returns the points by parameter, the first values of each parameter before the others' further ones."""
     rank = {name: place for place, name in enumerate(PROMISING)}
     places: dict[str, int] = {}
     keys = {}
     for place, point in enumerate(points):
         nth = places[point.curve] = places.get(point.curve, -1) + 1
         known = rank.get(point.curve)
-        # What a user named, as by --product, goes with the promising ones.
+        # Parameters that a user named, as by --product, come with the promising ones.
         keys[id(point)] = (known is None and point.curve in parameters.PARAMETERS, nth, known or 0, place)
     return sorted(points, key=lambda point: keys[id(point)])
 
@@ -183,7 +183,7 @@ def say(text: str) -> None:
 
 
 def affordable_plan(plan: Plan, coarser: Plan | None, work: Work) -> Plan:
-    """The plan of the reference, or the one on coarser meshes where it exceeds half of the seconds of a
+    """Returns the plan of the reference, or the one on coarser meshes if it exceeds half of the seconds of a
     budget."""
     allowed = 0.5 * work.budget.seconds_left()
     seconds = sum(work.expected(scene, 1) for _, scene in plan.runs())
@@ -301,7 +301,7 @@ def sweep_over(
     sweep = swept(run_points)
 
     def run_again(some: Sequence[Point]) -> None:
-        """Those that are not dominated, until they are timed often enough."""
+        """Repeats points that are not dominated until they have enough timings."""
         if options.repeat > 1 and not work.was_stopped:
             again = work.run([(p.label, p.scene, options.repeat) for p in some], options.jobs)
             for point in some:
@@ -342,7 +342,7 @@ def sweep_over(
 
 
 def coarser_plan(plan_on: Callable[[str | None], Plan], scene: Scene) -> Plan | None:
-    """That of a reference on the coarsest meshes that give an order, if the scene has them."""
+    """Returns the plan of a reference on the coarsest meshes that give an order, if the scene has them."""
     try:
         return plan_on("0.5,1,2")
     except UserError:
@@ -372,7 +372,7 @@ def write_costs(
     arguments: Sequence[str],
     work: Work,
 ) -> int:
-    """The page of a study that ended before its reference was made: costs without errors."""
+    """Writes the page of a study that ended before its reference was complete: costs without errors."""
     ended = [(p, p.result if p.is_base else result_of(p.scene)) for p in points]
     rows = [
         [p.label, r.status, r.elements or "–", r.steps, number(r.core_seconds)]
@@ -398,7 +398,7 @@ def write_costs(
 
 
 def remarks_of(options: Options, runner: Runner) -> list[str]:
-    """What holds of all runs of a page."""
+    """Returns remarks on all runs of a page."""
     remarks = [
         f"{runner.program.version}, {'one rank' if options.ranks == 1 else f'{options.ranks} ranks'}"
         + (f", {options.jobs} runs at a time" if options.jobs > 1 else "")
@@ -427,8 +427,8 @@ def write_files(
     draw: Callable[[Path], None],
     page: Callable[[str], str],
 ) -> tuple[Path, Path]:
-    """CSV file, picture and page, to --output or the default name. `page` takes the picture's place beside
-    it. Returns name and picture."""
+    """Writes CSV file, picture and page to --output or the default name. `page` takes the picture's place
+    beside it. Returns name and picture."""
     name = Path(options.output or default)
     drawn = Path(options.picture) if options.picture else name.with_name(name.name + ".png")
     try:
