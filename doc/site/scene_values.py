@@ -272,9 +272,9 @@ def drop_hammer(runs: Runs) -> Iterable[Value]:
     yield Value("steps; reference: `Scheme = explicit`", implicit[-1]["step"], explicit[-1]["step"], ".0f")
     first, last = implicit[0], implicit[-1]
     duration = last["time"] - first["time"]
-    steps = zip(implicit, implicit[1:])
     name = "anvil.force_z"
-    impulse = sum(0.5 * (a[name] + b[name]) * (b["time"] - a["time"]) for a, b in steps)
+    pairs = zip(implicit, implicit[1:])
+    impulse = sum(0.5 * (a[name] + b[name]) * (b["time"] - a["time"]) for a, b in pairs)
     weight = 981 + 9810 * 7.8e-9 * 30 * math.pi * 10**2 / 4
     change = last["momentum_z"] - first["momentum_z"]
     balance = "impulse of the anvil and of the weight, over the change of momentum"
@@ -316,8 +316,8 @@ def passing_spheres(runs: Runs) -> Iterable[Value]:
 
     shorter = [f"Time stepping/{name} step=0.01" for name in ("Initial", "Maximum")]
     for name, settings in (
-        ("dissipation by friction over work put in, after parting", []),
-        ("the same with a quarter of the step", shorter),
+        ("dissipation by friction over work put in, after parting", ()),
+        ("the same with a quarter of the step", tuple(shorter)),
     ):
         last = spheres(*settings)[-1]
         yield Value(name, last["friction_dissipation"] / last["external_work"], 1, ".4g")
