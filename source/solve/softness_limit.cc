@@ -120,7 +120,11 @@ void SoftnessLimit::commit(const std::vector<ContactSprings> &springs, const dou
     Pair &pair = pairs_[i];
     pair.let_in += pair.tangential.counts * springs[i].tangential.held;
     pair.max_force = std::max(pair.max_force, springs[i].normal.force);
-    if (excess_left[i] > 1.) // without a change if the first augmentation has failed
+    // What friction of sheets lacks hardly changes the normal force, whose changes are reported.
+    const double of_sheet = pair.normal.missing(springs[i].normal, springs[i].normal.force);
+    const bool is_short = excess_left[i] > 1. &&
+                          (pair.rule != Rule::sheet || of_sheet > Limits::allowed * springs[i].normal.force);
+    if (is_short) // without a change if the first augmentation has failed
       pair.unsettled = std::max(pair.unsettled, std::isfinite(pair.normal.changed)
                                                     ? pair.normal.changed
                                                     : pair.normal.missing(springs[i].normal, pair.max_force));
