@@ -98,7 +98,7 @@ std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &spr
                                  Limits::allowed * friction - pair.let_in);
     if (of_pressure > 0.)
       result[i] += of_pressure / (Limits::allowed * pressure);
-    if (of_friction > resolved * pressure)
+    if (pair.rule == Rule::general && of_friction > resolved * pressure)
       result[i] += of_friction / left;
   }
   return result;
@@ -120,11 +120,7 @@ void SoftnessLimit::commit(const std::vector<ContactSprings> &springs, const dou
     Pair &pair = pairs_[i];
     pair.let_in += pair.tangential.counts * springs[i].tangential.held;
     pair.max_force = std::max(pair.max_force, springs[i].normal.force);
-    // What friction of sheets lacks hardly changes the normal force, whose changes are reported.
-    const double of_sheet = pair.normal.missing(springs[i].normal, springs[i].normal.force);
-    const bool is_short = excess_left[i] > 1. &&
-                          (pair.rule != Rule::sheet || of_sheet > Limits::allowed * springs[i].normal.force);
-    if (is_short) // without a change if the first augmentation has failed
+    if (excess_left[i] > 1.) // without a change if the first augmentation has failed
       pair.unsettled = std::max(pair.unsettled, std::isfinite(pair.normal.changed)
                                                     ? pair.normal.changed
                                                     : pair.normal.missing(springs[i].normal, pair.max_force));
