@@ -125,6 +125,10 @@ FIRST_STEPS = "elastic, so that forces hardly depend on steps. They are short at
 EXPLICIT_STEPS = (
     "explicit: penalty, resolution and safety factor shorten all steps, whether contact needs it or not"
 )
+SHEETS = (
+    "with friction, iterations of accurate fail at its tight tolerances: penalties fall, and augmentation may"
+    " stop early; `Penetration tolerance` = 1e-3 keeps its aim"
+)
 WHY = {
     "billet_deformable_dies": "all errors are below 0.1 %, and accurate takes short steps nevertheless",
     "cyclic_coupon": "strains reverse at times that steps do not know, which `Stops` would name; 20 equal"
@@ -144,6 +148,8 @@ WHY = {
     "tube_impact": EXPLICIT_STEPS,
     "turned_blocks": FIRST_STEPS,
     "twisted_hemisphere": FIRST_STEPS,
+    "wagoner_punch": SHEETS,
+    "wagoner_punch_mu_015": SHEETS,
 }
 
 
