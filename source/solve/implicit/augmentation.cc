@@ -204,7 +204,6 @@ bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std:
     if (!(factor < 1.))
       continue;
     has_lowered = true;
-    softness_.forget(i);
     if (wanted[i] < enough_penalty)
       of_sheets[i] = factor;
     else
@@ -221,9 +220,11 @@ bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std:
   if (std::any_of(of_sheets.begin(), of_sheets.end(), [](const double factor) { return factor < 1.; }))
     books.change_at_start([&] {
       for (std::size_t i = 0; i < contacts.of_tools().size(); ++i)
-        if (of_sheets[i] < 1.)
+        if (of_sheets[i] < 1.) {
           contacts.of_tools()[i].penalties().lower_under_load(
               of_sheets[i], contacts[i].settings().input->penalty.is_tangential_given ? 1. : of_sheets[i]);
+          softness_.forget(i);
+        }
     });
   else if (has_lowered)
     problem_.scales().spring_round_off = contacts.find_spring_round_off();
