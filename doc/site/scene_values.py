@@ -314,10 +314,10 @@ def passing_spheres(runs: Runs) -> Iterable[Value]:
     def spheres(*settings: str) -> list[Row]:
         return runs.shipped("passing_spheres", *(word for setting in settings for word in ("--set", setting)))
 
-    shorter = [f"Time stepping/{name} step=0.01" for name in ("Initial", "Maximum")]
+    shorter = tuple(f"Time stepping/{name} step=0.01" for name in ("Initial", "Maximum"))
     for name, settings in (
         ("dissipation by friction over work put in, after parting", ()),
-        ("the same with a quarter of the step", tuple(shorter)),
+        ("the same with a quarter of the step", shorter),
     ):
         last = spheres(*settings)[-1]
         yield Value(name, last["friction_dissipation"] / last["external_work"], 1, ".4g")
