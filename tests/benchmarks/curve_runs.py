@@ -24,6 +24,7 @@ from billet_tools.scene import with_absolute_files
 Curves = dict[str, list[tuple[float, ...]]]  # vectors at the times of a run, by name
 
 KEPT = ROOT / "results/runs"
+OTHERS = "pair ", ".support ", ".symmetry plane ", ".load "  # in names of forces that (W1) of the theory leaves out
 _asked: Counter[str] = Counter()  # what this process runs several times, to time it, runs as often
 
 
@@ -34,8 +35,9 @@ def program_hash() -> str:
 
 class CurveRun:
     """A run of a scene with changes as of billet_runs.variant(), None for what is left out: whether it
-    `finished`, `times`, `forces` of tools and pairs of bodies by name, `energies` and `curves` (forces; of
-    explicit scenes energies), `seconds` (user and system), `steps`, `work` (Newton iterations; of explicit
+    `finished`, `times`, `forces` of tools and pairs of bodies by name, `reactions` (these, and forces of
+    supports, symmetry planes and of each pair with a tool), `energies` and `curves` (forces; of explicit scenes
+    energies), `seconds` (user and system), `steps`, `work` (Newton iterations; of explicit
     scenes element updates), what it `believed` (error_estimate.csv), what was `said`, and its `failure`. Kept
     in results/runs, where the same run of the same program is found again."""
 
@@ -81,9 +83,12 @@ class CurveRun:
         self.is_explicit = bool(rows) and "total_iterations" not in rows[0]
         self.times = [float(row["time"]) for row in rows]
         names = [key[: -len(".force_x")] for key in (rows[0] if rows else {}) if key.endswith(".force_x")]
-        self.forces: Curves = {
+        self.reactions: Curves = {
             name: [tuple(float(row[f"{name}.force_{axis}"]) for axis in "xyz") for row in rows]
             for name in names
+        }
+        self.forces = {
+            name: curve for name, curve in self.reactions.items() if not any(word in name for word in OTHERS)
         }
         self.energies: Curves = {
             "kinetic": [(float(row.get("kinetic_energy", 0.0)),) for row in rows],
@@ -96,7 +101,7 @@ class CurveRun:
                 for row in rows
             ],
         }
-        self.curves = self.energies if self.is_explicit else self.forces
+        self.curves = self.energies if self.is_explicit else self.forces or self.reactions
         self.steps = int(rows[-1]["step"]) if rows else 0
         said_elements = [
             line for line in self.said.splitlines() if " elements, " in line and " unknowns, " in line

@@ -254,7 +254,7 @@ class Runs:
     def course(self, run: CurveRun, with_sideways: bool = False) -> Course:
         if self.case.course:
             return self.case.course(run)
-        forces = run.forces[self.case.compared]
+        forces = run.reactions[self.case.compared]
         if self.case.axis is None or with_sideways:
             return list(zip(run.times, forces))
         return [(time, (force[self.case.axis],)) for time, force in zip(run.times, forces)]

@@ -256,8 +256,7 @@ CASES = [
 def run_case(case: Case, changes: Changes) -> CurveRun:
     """Returns a run with the curves that are compared."""
     run = CurveRun(ROOT / f"{case.scene}.prm", changes)
-    if case.by_energies:
-        run.curves = run.energies
+    run.curves = run.energies if case.by_energies or run.is_explicit else run.reactions
     return run
 
 
