@@ -24,7 +24,12 @@ from billet_tools.scene import with_absolute_files
 Curves = dict[str, list[tuple[float, ...]]]  # vectors at the times of a run, by name
 
 KEPT = ROOT / "results/runs"
-OTHERS = "pair ", ".support ", ".symmetry plane ", ".load "  # in names of forces that (W1) of the theory leaves out
+OTHERS = (
+    "pair ",
+    ".support ",
+    ".symmetry plane ",
+    ".load ",
+)  # in names of forces that (W1) of the theory leaves out
 _asked: Counter[str] = Counter()  # what this process runs several times, to time it, runs as often
 
 
@@ -36,10 +41,10 @@ def program_hash() -> str:
 class CurveRun:
     """A run of a scene with changes as of billet_runs.variant(), None for what is left out: whether it
     `finished`, `times`, `forces` of tools and pairs of bodies by name, `reactions` (these, and forces of
-    supports, symmetry planes and of each pair with a tool), `energies` and `curves` (forces; of explicit scenes
-    energies), `seconds` (user and system), `steps`, `work` (Newton iterations; of explicit
-    scenes element updates), what it `believed` (error_estimate.csv), what was `said`, and its `failure`. Kept
-    in results/runs, where the same run of the same program is found again."""
+    supports, symmetry planes, loads and each pair with a tool), `energies` and `curves` (forces; without any,
+    reactions; of explicit scenes energies), `seconds` (user and system), `steps`, `work` (Newton iterations;
+    of explicit scenes element updates), what it `believed` (error_estimate.csv), what was `said`, and its
+    `failure`. Kept in results/runs, where the same run of the same program is found again."""
 
     timed = False  # once more, alone
 
