@@ -98,7 +98,7 @@ std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &spr
                                  Limits::allowed * friction - pair.let_in);
     if (of_pressure > 0.)
       result[i] += of_pressure / (Limits::allowed * pressure);
-    if (of_friction > resolved * pressure)
+    if (pair.rule == Rule::general && of_friction > resolved * pressure)
       result[i] += of_friction / left;
   }
   return result;

@@ -14,7 +14,8 @@ namespace billet {
 /// It follows from the change by the last augmentation; (L7) of doc/theory.md.
 class SoftnessLimit {
 public:
-  /// Limit of a pair: none, that of solid bodies, or that of sheets, whose softness is in bending.
+  /// Limit of a pair: none, one of both directions, or, for sheets, one of the normal direction
+  /// alone.
   enum class Rule { none, general, sheet };
   explicit SoftnessLimit(const std::vector<Rule> &rules);
 
