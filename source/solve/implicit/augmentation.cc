@@ -154,8 +154,8 @@ std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double
     const double left = std::min(errors[i] / series.before[i], series.granted[i]);
     if (contacts[i].settings().limits_softness())
       room[i] *= series.added[i] > Limits::nearly_all && errors[i] > Limits::much ? Limits::more_of_confined
-                 : contacts[i].rigid_tool()                                       ? Limits::more_of_tools
-                                                                                  : 1.;
+                 : contacts[i].rigid_tool() && !contacts[i].penalties().is_of_sheet() ? Limits::more_of_tools
+                                                                                      : 1.;
     if (!(errors[i] > 1. && left > Limits::slow && room[i] >= Limits::octave))
       continue;
     factors[i] = whole_octaves(
@@ -204,7 +204,7 @@ bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std:
     if (!(factor < 1.))
       continue;
     has_lowered = true;
-    if (contacts[i].penalties().is_of_sheet())
+    if (wanted[i] < enough_penalty)
       of_sheets[i] = factor;
     else
       contacts[i].penalties().scale(factor, factor);
@@ -250,11 +250,9 @@ void Augmentation::lower_sheets(const std::vector<bool> &chosen, const std::stri
   if (std::none_of(chosen.begin(), chosen.end(), [](const bool is_chosen) { return is_chosen; }))
     return;
   std::vector<double> wanted(chosen.size(), std::numeric_limits<double>::max());
-  const std::vector<double> room = parts_.contacts().stiffening_left();
   for (std::size_t i = 0; i < wanted.size(); ++i)
-    if (chosen[i]) // what augmentation has raised falls first
-      wanted[i] =
-          fall_to(enough_penalty, room[i], parts_.contacts()[i]) < 1. ? enough_penalty : sheet_penalty;
+    if (chosen[i])
+      wanted[i] = sheet_penalty;
   lower_penalties(wanted, reason, books, messages);
 }
 
