@@ -154,8 +154,8 @@ std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double
     const double left = std::min(errors[i] / series.before[i], series.granted[i]);
     if (contacts[i].settings().limits_softness())
       room[i] *= series.added[i] > Limits::nearly_all && errors[i] > Limits::much ? Limits::more_of_confined
-                 : contacts[i].rigid_tool() && !contacts[i].penalties().is_of_sheet() ? Limits::more_of_tools
-                                                                                      : 1.;
+                 : contacts[i].rigid_tool()                                       ? Limits::more_of_tools
+                                                                                  : 1.;
     if (!(errors[i] > 1. && left > Limits::slow && room[i] >= Limits::octave))
       continue;
     factors[i] = whole_octaves(
