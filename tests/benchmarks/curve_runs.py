@@ -24,12 +24,9 @@ from billet_tools.scene import with_absolute_files
 Curves = dict[str, list[tuple[float, ...]]]  # vectors at the times of a run, by name
 
 KEPT = ROOT / "results/runs"
-OTHERS = (
-    "pair ",
-    ".support ",
-    ".symmetry plane ",
-    ".load ",
-)  # in names of forces that (W1) of the theory leaves out
+# In names of forces that (W1) of the theory leaves out.
+OTHERS = ("pair ", ".support ", ".symmetry plane ", ".load ")
+LAYOUT = "with reactions"  # of kept runs: others are not found
 _asked: Counter[str] = Counter()  # what this process runs several times, to time it, runs as often
 
 
@@ -53,7 +50,7 @@ class CurveRun:
             with_absolute_files(read_scene(scene), scene.parent),
             {"Output/Format": "none", "Output/Verbosity": "steps", "Output/Folder": "results", **changes},
         )
-        key = hash_of(program_hash(), str(ranks), text)[:24]
+        key = hash_of(LAYOUT, program_hash(), str(ranks), text)[:24]
         _asked[key] += 1
         file = KEPT / f"{key}-{_asked[key]}.json"
         kept = read_json(file)
