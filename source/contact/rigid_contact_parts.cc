@@ -124,6 +124,9 @@ void RigidContactParts::commit() {
       node.multiplier_offset = 0.;
       if (fading_gaps)
         leave_depth(i);
+      // A node that has left rests no more: a stiffness without a force would slow its return.
+      if (node.gap_n > 0. && node.gap_n <= node.touching_gap)
+        node.gap_n = std::nextafter(node.touching_gap, node.size);
     }
     node.multiplier_offset_n = node.multiplier_offset;
   }

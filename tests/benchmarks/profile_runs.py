@@ -24,6 +24,7 @@ PROFILED = {
     "Implicit dynamics": ("Error tolerance",),
     "Solver": ("Force tolerance", "Energy tolerance", "Displacement tolerance", "Linear tolerance"),
     "Contact pairs": ("Penetration tolerance", "Normal penalty", "Penalty unit"),
+    "General contact": ("Penetration tolerance", "Normal penalty", "Penalty unit"),
     "Explicit dynamics": ("Contact resolution", "Safety factor"),
     "Bodies": ("Element", "Elasticity"),
 }

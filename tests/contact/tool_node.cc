@@ -186,6 +186,12 @@ void check_rest(const std::string &name, const bool has_friction) {
       check(name + ": a node rests on the plane in statics",
             state.status != ContactStatus::open && state.traction.norm() == 0. &&
                 near(state.tangent[2][2], stiffness[0].normal, 1e-12));
+    if (!has_inertia) {
+      bench.parts.states[0] = bench.evaluate(0, Tensor<1, 3>({0.1, 0., 1.6 * lifted}));
+      bench.parts.commit();
+      check(name + ": it rests no more once a step has moved it away",
+            bench.evaluate(0, Tensor<1, 3>({0.1, 0., lifted})).status == ContactStatus::open);
+    }
     bench.start(0, Tensor<1, 3>({0.1, 0., 0.}));
     check(name + (has_inertia ? ": with inertia, on it" : ": in statics, on it"),
           bench.evaluate(0, Tensor<1, 3>({0.1, 0., 0.})).status != ContactStatus::open);

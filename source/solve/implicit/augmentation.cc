@@ -152,7 +152,7 @@ std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double
   bool is_stiffer = false;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double left = std::min(errors[i] / series.before[i], series.granted[i]);
-    if (contacts[i].settings().limits_softness())
+    if (contacts[i].settings().limits_softness() && may_be_raised(i))
       room[i] *= series.added[i] > Limits::nearly_all && errors[i] > Limits::much ? Limits::more_of_confined
                  : contacts[i].rigid_tool()                                       ? Limits::more_of_tools
                                                                                   : 1.;
@@ -166,6 +166,15 @@ std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double
   if (is_stiffer)
     problem_.scales().spring_round_off = contacts.find_spring_round_off();
   return factors;
+}
+
+bool Augmentation::may_be_raised(const std::size_t contact) const {
+  return bounded_.empty() || bounded_[contact] == 0.;
+}
+
+void Augmentation::bound_penalty(const std::size_t contact) {
+  bounded_.resize(parts_.contacts().size(), 0.);
+  bounded_[contact] = 1.;
 }
 
 std::vector<bool> Augmentation::restless_sheets() const {
@@ -193,22 +202,24 @@ std::vector<bool> Augmentation::stacked_sheets() const {
   return stacked;
 }
 
-bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std::string &reason,
+bool Augmentation::lower_penalties(const std::vector<Fall> &falls, const std::string &reason,
                                    SpringBooks &books, DiagnosticList &messages) {
   ContactSet &contacts = parts_.contacts();
   const std::vector<double> room = contacts.stiffening_left();
   std::vector<double> of_sheets(room.size(), 1.); // factors
   bool has_lowered = false;
   for (std::size_t i = 0; i < room.size(); ++i) {
-    const double factor = fall_to(wanted[i], room[i], contacts[i]);
+    const double factor = fall_to(falls[i].to, room[i], contacts[i]);
     if (!(factor < 1.))
       continue;
     has_lowered = true;
-    if (wanted[i] < enough_penalty)
+    if (falls[i].keeps_tractions)
       of_sheets[i] = factor;
     else
       contacts[i].penalties().scale(factor, factor);
     const double before = enough_penalty / room[i];
+    if (before > enough_penalty && contacts[i].penalties().is_of_sheet())
+      bound_penalty(i);
     std::ostringstream text;
     text << "The penalty is reduced from " << before << " to " << before * factor << " E/h, since " << reason
          << "; augmentation enforces the constraint";
@@ -233,27 +244,29 @@ bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std:
 
 bool Augmentation::soften_contacts(const NewtonReport &failed, SpringBooks &books, DiagnosticList &messages) {
   const ContactSet &contacts = parts_.contacts();
-  std::vector<double> wanted(contacts.size(), enough_penalty);
+  std::vector<Fall> falls(contacts.size(), {enough_penalty, false});
   const std::vector<double> room = contacts.stiffening_left();
   bool is_raised = false; // by augmentation: that falls first
   for (std::size_t i = 0; i < room.size(); ++i)
     is_raised = is_raised || fall_to(enough_penalty, room[i], contacts[i]) < 1.;
   const std::vector<bool> restless = restless_sheets();
-  for (std::size_t i = 0; !is_raised && i < wanted.size(); ++i)
+  for (std::size_t i = 0; !is_raised && i < falls.size(); ++i)
     if (restless[i] || (!failed.is_slow && contacts[i].penalties().is_of_sheet()))
-      wanted[i] = sheet_penalty;
-  return lower_penalties(wanted, "Newton's method failed", books, messages);
+      falls[i] = {sheet_penalty, true};
+  return lower_penalties(falls, "Newton's method failed", books, messages);
 }
 
 void Augmentation::lower_sheets(const std::vector<bool> &chosen, const std::string &reason,
                                 SpringBooks &books, DiagnosticList &messages) {
   if (std::none_of(chosen.begin(), chosen.end(), [](const bool is_chosen) { return is_chosen; }))
     return;
-  std::vector<double> wanted(chosen.size(), std::numeric_limits<double>::max());
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    if (chosen[i])
-      wanted[i] = sheet_penalty;
-  lower_penalties(wanted, reason, books, messages);
+  const ContactSet &contacts = parts_.contacts();
+  const std::vector<double> room = contacts.stiffening_left();
+  std::vector<Fall> falls(chosen.size());
+  for (std::size_t i = 0; i < falls.size(); ++i)
+    if (chosen[i]) // what augmentation has raised falls first
+      falls[i] = {fall_to(enough_penalty, room[i], contacts[i]) < 1. ? enough_penalty : sheet_penalty, true};
+  lower_penalties(falls, reason, books, messages);
 }
 
 void Augmentation::soften_sheets(SpringBooks &books, DiagnosticList &messages) {
@@ -284,12 +297,9 @@ Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSpring
                                                  const unsigned int n) const {
   Demands demands;
   demands.of_contacts = parts_.contacts().augmentation_errors();
-  const auto is_idle = [this](const std::size_t i) {
-    return bears_nothing(problem_, parts_.contacts()[i].rigid_tool());
-  };
   for (std::size_t i = 0; i < demands.of_contacts.size(); ++i) {
     double &demand = demands.of_contacts[i];
-    demand = is_idle(i) ? 0. : demand / penetration_allowed_;
+    demand = bears_nothing(problem_, parts_.contacts()[i].rigid_tool()) ? 0. : demand / penetration_allowed_;
     demands.by_tolerances = std::max(demands.by_tolerances, demand);
   }
   demands.maximum = demands.by_tolerances;
@@ -300,8 +310,6 @@ Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSpring
   const double resolved = n > 0 ? parts_.parameters().solver.force_tolerance * solver_.accuracy() : 0.;
   const std::vector<double> excess = softness_.excess(springs, resolved);
   for (std::size_t i = 0; i < excess.size(); ++i) {
-    if (is_idle(i))
-      continue;
     demands.of_contacts[i] = std::max(demands.of_contacts[i], excess[i]);
     demands.maximum = std::max(demands.maximum, excess[i]);
   }
@@ -311,8 +319,10 @@ Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSpring
 std::vector<ContactSprings> Augmentation::contact_springs() const {
   if (!softness_.is_used())
     return {};
-  auto springs =
-      parts_.contacts().collect([](const auto &contact) { return contact.penalties().compute_springs(); });
+  auto springs = parts_.contacts().collect([this](const auto &contact) {
+    return bears_nothing(problem_, contact.rigid_tool()) ? ContactSprings()
+                                                         : contact.penalties().compute_springs();
+  });
   std::vector<double> sums;
   for (const auto &[normal, tangential] : springs)
     sums.insert(sums.end(), {normal.force, normal.held, tangential.force, tangential.held});
@@ -539,6 +549,8 @@ void Augmentation::save(StateWriter &writer) const {
     writer.write("softness", softness_.save());
   if (has_sheets_)
     writer.write("steps with restless sheets", restless_steps_);
+  if (has_sheets_)
+    writer.write("bounded penalties", bounded_);
 }
 
 void Augmentation::load(StateReader &reader) {
@@ -547,6 +559,11 @@ void Augmentation::load(StateReader &reader) {
   if (has_sheets_ && reader.has("steps with restless sheets")) {
     restless_steps_ = reader.read("steps with restless sheets");
     restless_steps_.resize(parts_.contacts().size(), 0.); // saved for other pairs
+  }
+  if (has_sheets_ && reader.has("bounded penalties")) {
+    bounded_ = reader.read("bounded penalties");
+    if (!bounded_.empty())
+      bounded_.resize(parts_.contacts().size(), 0.);
   }
 }
 

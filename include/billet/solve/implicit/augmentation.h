@@ -7,6 +7,7 @@
 #include "billet/solve/softness_limit.h"
 
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace billet {
@@ -67,12 +68,18 @@ private:
   /// Whether contacts are those of sheets that other bodies may touch, too: springs between bodies
   /// are soft beside the compression of a sheet.
   std::vector<bool> stacked_sheets() const;
-  /// Reduces penalties by whole octaves to at most `wanted` [E/h], with a message on each, and the
-  /// reason in it. Those of sheets keep the tractions at the start of the step. Returns whether
-  /// there is any. Collective.
-  bool lower_penalties(const std::vector<double> &wanted, const std::string &reason, SpringBooks &books,
+  /// Penalty to which one is reduced at most [E/h], and whether nodes keep their tractions at the
+  /// start of the step. By default it is not reduced.
+  struct Fall {
+    double to = std::numeric_limits<double>::max();
+    bool keeps_tractions = false;
+  };
+  /// Reduces penalties by whole octaves, with a message on each, and the reason in it. Returns
+  /// whether there is any. Collective.
+  bool lower_penalties(const std::vector<Fall> &falls, const std::string &reason, SpringBooks &books,
                        DiagnosticList &messages);
-  /// Does the same to (T13) for the contacts chosen, all of sheets.
+  /// Does the same for the contacts chosen, all of sheets: takes back a raise by augmentation, or
+  /// reduces to (T13) if there is none.
   void lower_sheets(const std::vector<bool> &chosen, const std::string &reason, SpringBooks &books,
                     DiagnosticList &messages);
   /// Returns the rules by which contacts limit their softness now.
@@ -82,6 +89,10 @@ private:
   /// Returns the changes of the forces of each contact by an augmentation. Collective.
   std::vector<std::array<SoftnessLimit::Change, 2>>
   changes_of(const std::vector<ContactSprings> &before, const std::vector<ContactSprings> &after) const;
+  /// Whether augmentation may raise the penalty of this contact above `enough_penalty`. Once a
+  /// sheet's has fallen again, it would only rise and fall in turn.
+  bool may_be_raised(std::size_t contact) const;
+  void bound_penalty(std::size_t contact);
   /// Raises the penalties of contacts whose errors are above 1 and fell little in the last
   /// augmentation. Returns the factors, all 1 if none is raised. Collective.
   std::vector<double> stiffen_slow_contacts(const std::vector<double> &errors, const Series &series);
@@ -110,6 +121,7 @@ private:
   std::vector<bool> is_noted_;         ///< contacts of note_stiff_contacts()
   bool has_sheets_;                    ///< whether a contact is that of a sheet; so on all ranks
   std::vector<double> restless_steps_; ///< number of steps with restless nodes, of sheets
+  std::vector<double> bounded_;        ///< 1 for sheets that may_be_raised() no more; may be empty
 };
 
 } // namespace billet
