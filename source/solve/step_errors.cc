@@ -68,6 +68,7 @@ void StepErrors::add_step(const double h) {
 }
 
 void StepErrors::accept(const double h, const std::size_t n_forces) {
+  longest_taken_ = std::max(longest_taken_, h);
   // The error of steps is not known yet.
   if (n_measurements_ == 0 && !has_given_up() && rules_.tolerance > 0.)
     longest_step_ = std::min(longest_step_, h);
@@ -208,10 +209,11 @@ void StepErrors::choose_longest_step(const ForceCourse &course, const double h, 
     return;
   const double span = course.span(), max_span = Factors::max_span * std::sqrt(rules_.tolerance) * span;
   longest_step_ = std::min(longest_step_, is_known ? max_span : std::max(max_span, h));
-  if (longest_step_ < h)
-    longest_step_ =
-        std::max(longest_step_, std::min(h, std::min(Factors::min_of_max_span * max_span,
-                                                     Factors::min_span * rules_.tolerance * span)));
+  // Steps that Newton's method has cut grow again: errors do not hold them below this either.
+  const double grown = std::min(longest_taken_, Factors::max_stretch * h);
+  longest_step_ =
+      std::max(longest_step_, std::min(grown, std::min(Factors::min_of_max_span * max_span,
+                                                       Factors::min_span * rules_.tolerance * span)));
 }
 
 void StepErrors::miss(const double h, const bool failed) {
@@ -247,6 +249,7 @@ void StepErrors::save(StateWriter &writer) const {
       .number(part_)
       .number(n_failed_);
   writer.write("errors of steps", numbers);
+  writer.write("longest step", {longest_taken_});
   billet::save(writer, "errors by steps", slopes_);
   billet::save(writer, "errors of forces", errors_);
 }
@@ -264,6 +267,7 @@ void StepErrors::load(const StateReader &reader) {
   is_little_ = row.flag();
   part_ = row.number();
   n_failed_ = to_count(row.number());
+  longest_taken_ = reader.has("longest step") ? reader.read("longest step", 1)[0] : 0.;
   slopes_ = load_result_group(reader, "errors by steps");
   errors_ = load_result_group(reader, "errors of forces");
 }

@@ -125,6 +125,11 @@ int main() {
   check("steps grow again where shorter ones err as much in the same time",
         next_step({{0.01, 2e-3}, {0.005, 2e-3}}) >= 0.01 && next_step({{0.01, 2e-3}, {0.005, 5e-4}}) < 0.01);
 
+  constexpr double floor = 3e-3; // three tolerances of the span
+  check("steps that failures have cut grow again, up to where errors would not cut them",
+        near(next_step({{0.01, 2e-3}, {1e-3, 1e-4}}), floor, 1e-9) &&
+            near(next_step({{1e-3, 2e-4}, {1e-3, 1e-4}}), 1e-3, 1e-9));
+
   ErrorControl deep({0., 1e-3}, 1.);
   deep.accept(0.1, force(0.1, 0.), 1e-5, 100.);
   deep.measure_penetration(100., force(0.1, 0.), force(0.1, 0.032), 0.);

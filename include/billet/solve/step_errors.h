@@ -95,6 +95,7 @@ private:
   unsigned int n_measurements_ = 0;
   unsigned int n_failed_ = 0; ///< comparisons in a row
   double longest_step_ = std::numeric_limits<double>::infinity();
+  double longest_taken_ = 0.; ///< of all steps so far
 };
 
 } // namespace billet
