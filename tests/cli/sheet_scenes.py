@@ -176,7 +176,7 @@ def _() -> None:
     near("force of the punch", found, stiff, 1e-3)
 
 
-@check("a sheet with friction converges under tight tolerances, and chatter takes back a raised penalty alone")
+@check("a sheet with friction converges under tight tolerances; chatter takes back a raised penalty alone")
 def _() -> None:
     left = {
         "Contact pairs/blank on punch": ("Penalty unit", "Normal penalty"),
@@ -193,7 +193,7 @@ def _() -> None:
             **{f"{section}/{key}": "" for section, keys in left.items() for key in keys},
         },
     )
-    # It takes 1,782 if nodes that have left a tool rest on it, and 1,120 if penalties of 640 fall to 0.04 E/h.
+    # It takes 1,782 if nodes that have left a tool rest on it, 1,120 if penalties of 640 fall to 0.04 E/h.
     iterations = sum(row["iterations"] for row in rows)
     require(iterations < 900, f"{iterations} iterations")
     log = Path("tight/billet.log").read_text()
