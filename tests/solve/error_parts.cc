@@ -67,11 +67,14 @@ double next_step(const double tolerance, const std::vector<Pair> &pairs) {
 /// Steps of h = 0.001 that are compared when `left` of the run is left, each time with one from which they
 /// differ by this part of the force. `unmeasured`: length of one step before, of which nothing is known.
 struct Late {
-  static constexpr double h = 1e-3, tolerance = 0.01;
+  static constexpr double short_step = 1e-3, tolerance = 0.01;
+  double h; ///< of steps, whose errors are measured
   ForceCourse course{1.};
   StepErrors errors{{tolerance, false, false}};
 
-  Late(const double left, const double unmeasured, const std::vector<double> &differences) {
+  Late(const double left, const double unmeasured, const std::vector<double> &differences,
+       const double length = short_step)
+      : h(length) {
     course.accept(1e-6, 10.);
     course.accept(1. - 1e-6 - left, 10.);
     if (unmeasured > 0.)
@@ -85,7 +88,9 @@ struct Late {
   /// The factor by which the next steps may be longer.
   double stretch() const { return errors.longest_step() / h; }
   /// The difference of steps that make errors grow at so many times the even rate: 1.4 c h = n 2 S ε/T.
-  static constexpr double at_rate(const double n) { return n * 2. * tolerance * 2. * h / 1.4; }
+  static constexpr double at_rate(const double n, const double length = short_step) {
+    return n * 2. * tolerance * 2. * length / 1.4;
+  }
 };
 
 /// Limits of the rate at which errors may grow.
@@ -96,9 +101,10 @@ void check_rates() {
         near(Late(0.2, 0., {Late::at_rate(3.)}).stretch(), 2., rounding) &&
             near(Late(0., 0., {Late::at_rate(3.)}).stretch(), 2., rounding));
   // Where half of the run has used up all that is allowed, 0.2 of the rate that leads to it in the other
-  // half.
+  // half. Steps of three tolerances of the span: errors do not hold back shorter ones.
+  constexpr double length = 3. * Late::tolerance;
   check("what has used up all errors goes on at a fifth of the rate",
-        near(Late(0.5, 0.5, {Late::at_rate(0.4)}).stretch(), 2., 1e-9));
+        near(Late(0.5, 0.5, {Late::at_rate(0.4, length)}, length).stretch(), 2., 1e-9));
   check("errors that grow suddenly count three times the last ones",
         near(Late(0.2, 0., {Late::at_rate(1.), Late::at_rate(3.1)}).stretch(), 2., rounding) &&
             near(Late(0.2, 0., {Late::at_rate(1.), Late::at_rate(30.)}).stretch(), 2., rounding));
