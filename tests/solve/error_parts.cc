@@ -64,7 +64,7 @@ double next_step(const double tolerance, const std::vector<Pair> &pairs) {
   return Compared(tolerance, pairs).errors.longest_step();
 }
 
-/// Steps of h = 0.001 that are compared when `left` of the run is left, each time with one from which they
+/// Steps of length h that are compared when `left` of the run is left, each time with one from which they
 /// differ by this part of the force. `unmeasured`: length of one step before, of which nothing is known.
 struct Late {
   static constexpr double short_step = 1e-3, tolerance = 0.01;

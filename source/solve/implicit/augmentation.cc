@@ -547,10 +547,10 @@ DiagnosticList Augmentation::finish() const {
 void Augmentation::save(StateWriter &writer) const {
   if (softness_.is_used())
     writer.write("softness", softness_.save());
-  if (has_sheets_)
-    writer.write("steps with restless sheets", restless_steps_);
-  if (has_sheets_)
-    writer.write("bounded penalties", bounded_);
+  if (!has_sheets_)
+    return;
+  writer.write("steps with restless sheets", restless_steps_);
+  writer.write("bounded penalties", bounded_);
 }
 
 void Augmentation::load(StateReader &reader) {
