@@ -14,6 +14,7 @@ enum class Work {
   self_contact,       ///< search and forces
   fields,             ///< their output
   error_control,      ///< steps that are only compared
+  limited_steps,      ///< steps of the scene's own 'Maximum step', beside a target error
   n
 };
 

@@ -157,7 +157,7 @@ void Progress::start(const Discretization &discretization, const Solution &solut
   const parameters::Scene &parameters = scene_.parameters();
   if (!parameters.presets.empty()) {
     if (parameters.target_error > 0.)
-      stream_ << "Target error " << 100. * parameters.target_error << " %:";
+      stream_ << "Target error " << parameters.print_target() << ":";
     else
       stream_ << "Profile " << parameters.profile << ":";
     for (const auto &preset : parameters.presets)

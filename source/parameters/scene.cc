@@ -24,6 +24,7 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <sstream>
 #include <utility>
 
 namespace billet::parameters {
@@ -447,6 +448,16 @@ void set_explicit_intervals(Scene &scene, const bool has_interval) {
 
 } // namespace
 
+std::string Scene::print_target() const {
+  std::ostringstream text;
+  text << 100. * (target_error + mesh_target.error) << " %";
+  if (mesh_target.is_wanted()) {
+    text.precision(2);
+    text << " (" << 100. * mesh_target.error << " % for the mesh)";
+  }
+  return text.str();
+}
+
 double Scene::automatic_fade_time() const {
   constexpr double part_of_time = 0.01;
   return scheme().has_inertia ? 0. : part_of_time * time_stepping.end_time;
@@ -509,7 +520,7 @@ Scene Scene::read(SceneFile file, const std::string &restart_file) {
 
   Scene scene{};
   scene.warnings = describe_old_names(file);
-  scene.presets = apply_presets(prm, file);
+  scene.presets = apply_presets(prm, file, generated);
   scene.target_error = read_target_error(file);
   scene.mesh_target = read_mesh_target(file);
   Reader reader(prm, file);

@@ -7,6 +7,7 @@
 #include "billet/run/failure.h"
 #include "billet/run/forming_limits.h"
 #include "billet/run/unneeded_costs.h"
+#include "billet/spent_time.h"
 
 #include <algorithm>
 
@@ -30,6 +31,14 @@ bool has_sticking_overlaps(const Scene &scene) {
   return std::any_of(scene.body_pairs().begin(), scene.body_pairs().end(), [](const BodyPair &pair) {
     return pair.has_friction() && pair.facets == FacetMethod::overlap;
   });
+}
+
+/// Whether a step has the length of a 'Maximum step' that the scene itself sets.
+bool is_limited(const double length, const parameters::Scene &parameters) {
+  constexpr double rounding = 1e-6;
+  return length >= parameters.time_stepping.max_step * (1. - rounding) &&
+         std::none_of(parameters.presets.begin(), parameters.presets.end(),
+                      [](const parameters::Preset &preset) { return preset.key == "Maximum step"; });
 }
 
 } // namespace
@@ -112,6 +121,7 @@ bool ImplicitRun::step(RunOutput &output) {
     report_.total_iterations += watch_->before_step(control_, continued_);
   const double from = control_.time(), to = control_.next_time();
   report_.length = to - from;
+  const TimedWork timed(Work::limited_steps, watch_ && is_limited(report_.length, parameters_));
   try {
     report_.newton = problem_.step(to, continued_);
   } catch (const SolutionFailure &) { // keep the results so far

@@ -33,10 +33,16 @@ std::vector<Unneeded> list_unneeded(const RunCosts &costs) {
   if (costs.fields > much * costs.all)
     list.push_back({costs.fields, "the output of fields", "a larger 'Interval' in 'Output' writes fewer"});
   constexpr double finer = 0.1;
-  if (costs.target > 0. && costs.steps_error < finer * costs.target)
+  constexpr double twice_as_long = 0.5; // four times the error, at order 2
+  if (costs.target > 0. && costs.steps_error < finer * costs.target) {
     list.push_back({costs.error_control,
                     "the comparison of steps that are ten times finer than the target requires",
                     "a larger 'Maximum step' or 'Initial step', where the scene sets them"});
+    if (costs.limited_steps > 0.)
+      list.push_back({twice_as_long * costs.limited_steps,
+                      "steps of half the length that the target allows, or less",
+                      "twice the 'Maximum step' of the scene"});
+  }
   std::sort(list.begin(), list.end(), [](const auto &a, const auto &b) { return a.seconds > b.seconds; });
   return list;
 }
@@ -69,6 +75,7 @@ RunCosts collect_costs(const Scene &scene, const Solution &solution, const RunRe
   costs.self_contact = SpentTime::on(Work::self_contact);
   costs.fields = SpentTime::on(Work::fields);
   costs.error_control = SpentTime::on(Work::error_control);
+  costs.limited_steps = SpentTime::on(Work::limited_steps);
   costs.slides = energies.friction > rounding * energies.of_elements();
   costs.self_contact_touches = review.self_contact_touches();
   return costs;

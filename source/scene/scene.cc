@@ -690,12 +690,13 @@ void Scene::describe(std::ostream &stream) const {
   if (!parameters_.title.empty())
     stream << "Title          " << parameters_.title << "\n";
   if (parameters_.target_error > 0.)
-    stream << "Target error   " << 100. * parameters_.target_error << " % of the "
+    stream << "Target error   " << parameters_.print_target() << " of the "
            << (parameters_.scheme().has_inertia ? "energies"
                : std::any_of(tools_.begin(), tools_.end(), [](const Tool &tool) { return tool.is_driven(); })
                    ? "forces, or of the travel of driven tools"
                    : "forces")
-           << ", without the error of the mesh; controlled during the run, from\n";
+           << (parameters_.mesh_target.is_wanted() ? "" : ", without the error of the mesh")
+           << "; controlled during the run, from\n";
   else
     stream << "Profile        " << parameters_.profile
            << (parameters_.presets.empty() ? " (defaults)\n" : "\n");

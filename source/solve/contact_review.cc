@@ -35,7 +35,16 @@ struct SpreadLimits {
   static constexpr double past = 0.5, of_all_energy = 0.1;
   /// Part of the force on curves with coarse facets above which they are reported.
   static constexpr double much = 0.5;
+  /// The same, above which the error of the mesh is unknown: the direction of that force may be
+  /// wrong.
+  static constexpr double some = 0.1;
 };
+
+/// Whether a node is on a curve of the tool with fewer than five facets on a quarter turn.
+bool is_on_coarse_curve(const ContactNodeReport &node) {
+  constexpr double coarse = dealii::numbers::PI / 10.; // facet size / radius
+  return node.facet_size * node.curvature > coarse;
+}
 
 /// Returns a part in per cent.
 std::string print_part(const double part) {
@@ -56,9 +65,11 @@ bool ForceSpread::has_few_nodes() const {
          indentation > SpreadLimits::counts * deformation;
 }
 
-bool ForceSpread::is_coarse_on_curves() const {
-  return force > 0. && on_coarse_curves > SpreadLimits::much * force;
+double ContactReview::Pair::part_on_coarse() const {
+  return std::max(spread.part_on_coarse(), impulse > 0. ? impulse_on_coarse / impulse : 0.);
 }
+
+bool ContactReview::Pair::is_coarse_on_curves() const { return part_on_coarse() > SpreadLimits::much; }
 
 ContactReview::ContactReview(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), tool_forces_(scene.tools().size()),
@@ -122,10 +133,7 @@ ForceSpread ContactReview::spread_of(const Pair &pair, const std::vector<Contact
   additive.compress(dealii::VectorOperation::add);
   Vector sums = discretization_.make_owned_vector();
   sums = additive;
-  // Facet size / radius: five facets on a quarter turn.
-  constexpr double coarse = dealii::numbers::PI / 10.;
   std::vector<double> own(7);
-  double coarsest = 0.;
   for (const auto &node : reports) {
     if (!discretization_.owned_dofs().is_element(node.dofs[0]))
       continue;
@@ -142,20 +150,34 @@ ForceSpread ContactReview::spread_of(const Pair &pair, const std::vector<Contact
     own[2] += counts;
     own[3] += counts * pressure;
     own[4] += counts * pressure * pressure;
-    if (node.facet_size * node.curvature > coarse)
+    if (is_on_coarse_curve(node))
       own[5] += images * force;
     own[6] += 0.5 * on_it * force * force / (young_modulus * node.facet_size);
-    coarsest = std::max(coarsest, node.facet_size * node.curvature);
   }
   dealii::Utilities::MPI::sum(own, discretization_.communicator(), own);
-  return {own[0],
-          own[1],
-          own[2],
-          own[3],
-          own[4],
-          own[5],
-          dealii::Utilities::MPI::max(coarsest, discretization_.communicator()),
-          own[6]};
+  return {own[0], own[1], own[2], own[3], own[4], own[5], own[6]};
+}
+
+void ContactReview::add_on_curves(const std::vector<std::vector<ContactNodeReport>> &reports,
+                                  const double time) {
+  std::vector<double> forces(2 * pairs_.size()), coarsest(pairs_.size());
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    for (const auto &node : reports[p]) {
+      const double force = node.pressure * node.area;
+      if (!(force > 0.))
+        continue;
+      forces[2 * p] += force;
+      forces[2 * p + 1] += is_on_coarse_curve(node) ? force : 0.;
+      coarsest[p] = std::max(coarsest[p], node.facet_size * node.curvature);
+    }
+  dealii::Utilities::MPI::sum(forces, discretization_.communicator(), forces);
+  dealii::Utilities::MPI::max(coarsest, discretization_.communicator(), coarsest);
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    pairs_[p].impulse += (time - time_) * forces[2 * p];
+    pairs_[p].impulse_on_coarse += (time - time_) * forces[2 * p + 1];
+    pairs_[p].coarsest = std::max(pairs_[p].coarsest, coarsest[p]);
+  }
+  time_ = time;
 }
 
 DiagnosticList ContactReview::add(const Solution &solution) {
@@ -169,6 +191,7 @@ DiagnosticList ContactReview::add(const Solution &solution) {
   const auto reports = solution.report_contacts();
   const std::vector<StickSoftness> sticking = stick_springs_.measure(reports);
   const std::vector<double> penetrations = energies_of_penetration(reports, discretization_.communicator());
+  add_on_curves(reports, state.time);
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     Pair &pair = pairs_[p];
     const double force = sticking[p].pressure;
@@ -219,10 +242,21 @@ double ContactReview::penalty_error() const {
   return worst > notable_softness ? worst : 0.;
 }
 
-bool ContactReview::is_resolved() const {
-  return std::none_of(pairs_.begin(), pairs_.end(), [](const Pair &pair) {
-    return pair.is_spread_reported || pair.spread.has_few_nodes() || pair.spread.is_coarse_on_curves();
+std::string ContactReview::describe_unresolved() const {
+  if (std::any_of(pairs_.begin(), pairs_.end(), [](const Pair &pair) {
+        return pair.is_spread_reported || pair.spread.has_few_nodes() || pair.is_coarse_on_curves();
+      }))
+    return "the mesh does not resolve the contact that warnings name";
+  const auto worst = std::max_element(pairs_.begin(), pairs_.end(), [](const Pair &a, const Pair &b) {
+    return a.part_on_coarse() < b.part_on_coarse();
   });
+  if (worst == pairs_.end() || !(worst->part_on_coarse() > SpreadLimits::some))
+    return "";
+  std::ostringstream text;
+  text.precision(2);
+  text << 100. * worst->part_on_coarse() << " % of the force of the pair '" << worst->name
+       << "' acts where a quarter turn of the tool has fewer than five facets";
+  return text.str();
 }
 
 void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
@@ -308,7 +342,6 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
       diagnostics.push_back(
           Diagnostic(diagnostic::pair_never_touched, "The pair has no contact in the whole run")
               .pair(pair.name));
-    const ForceSpread &spread = pair.spread;
     append(diagnostics, judge_spread(pair));
     if (pair.max_of_edges > pair.max_force) {
       std::ostringstream text;
@@ -318,15 +351,16 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
       diagnostics.push_back(
           Diagnostic(diagnostic::few_contact_nodes, text.str()).pair(pair.name).value("nodes", 2.));
     }
-    if (spread.is_coarse_on_curves()) {
+    if (pair.is_coarse_on_curves()) {
       std::ostringstream text;
       text.precision(3);
-      text << "Facets that bear " << 100. * spread.on_coarse_curves / spread.force
-           << " % of the force have up to " << spread.coarsest << " times the tool's radius or width there";
+      text << "Facets that bear " << 100. * pair.part_on_coarse()
+           << " % of the force, at its maximum or over the run, have up to " << pair.coarsest
+           << " times the tool's radius or width there";
       diagnostics.push_back(Diagnostic(diagnostic::coarse_on_tool, text.str())
                                 .pair(pair.name)
                                 .time(pair.time)
-                                .measure("facet size / radius", spread.coarsest));
+                                .measure("facet size / radius", pair.coarsest));
     }
     constexpr double allowed = 0.03, counts = 0.002; // of friction, and of the normal force
     const double lost = pair.max_friction.lost, part = pair.max_friction.part();
@@ -384,17 +418,19 @@ void ContactReview::save(StateWriter &writer) const {
     numbers.insert(numbers.end(),
                    {pair.has_touched ? 1. : 0., pair.max_force, pair.time, pair.spread.force,
                     pair.spread.squares, pair.spread.nodes, pair.spread.pressures,
-                    pair.spread.pressure_squares, pair.spread.on_coarse_curves, pair.spread.coarsest,
-                    pair.spread.indentation, pair.spread.deformation, pair.max_friction.friction,
-                    pair.max_friction.lost, pair.max_of_edges, pair.is_spread_reported ? 1. : 0.});
+                    pair.spread.pressure_squares, pair.spread.on_coarse_curves, pair.spread.indentation,
+                    pair.spread.deformation, pair.max_friction.friction, pair.max_friction.lost,
+                    pair.max_of_edges, pair.is_spread_reported ? 1. : 0., pair.impulse,
+                    pair.impulse_on_coarse, pair.coarsest});
+  numbers.push_back(time_);
   writer.write("contact review", numbers);
 }
 
 void ContactReview::load(const StateReader &reader) {
-  constexpr std::size_t of_pair = 16;
+  constexpr std::size_t of_pair = 18;
   const std::vector<double> numbers = reader.read("contact review");
   if (numbers.size() !=
-      tool_forces_.size() + PathSoftness::n_numbers * softness_.size() + of_pair * pairs_.size())
+      tool_forces_.size() + PathSoftness::n_numbers * softness_.size() + of_pair * pairs_.size() + 1)
     return; // saved for other pairs
   const double *next = numbers.data();
   for (double &force : tool_forces_)
@@ -407,13 +443,17 @@ void ContactReview::load(const StateReader &reader) {
     pair.has_touched = next[0] > 0.;
     pair.max_force = next[1];
     pair.time = next[2];
-    pair.spread = {next[3], next[4], next[5], next[6], next[7], next[8], next[9], next[10], next[11]};
-    pair.max_friction.friction = next[12];
-    pair.max_friction.lost = next[13];
-    pair.max_of_edges = next[14];
-    pair.is_spread_reported = next[15] > 0.;
+    pair.spread = {next[3], next[4], next[5], next[6], next[7], next[8], next[9], next[10]};
+    pair.max_friction.friction = next[11];
+    pair.max_friction.lost = next[12];
+    pair.max_of_edges = next[13];
+    pair.is_spread_reported = next[14] > 0.;
+    pair.impulse = next[15];
+    pair.impulse_on_coarse = next[16];
+    pair.coarsest = next[17];
     next += of_pair;
   }
+  time_ = *next;
 }
 
 } // namespace billet

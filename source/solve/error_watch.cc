@@ -181,7 +181,6 @@ void ErrorWatch::take_measurement() {
     else
       controls_[i].measure_penetration(measured->penetration, measured->with[i], measured->without[i],
                                        residual_factor_ * measured->residual);
-  allow_penetration();
 }
 
 void ErrorWatch::after_step(StepControl &control, const double length, const NewtonReport &report) {
@@ -201,6 +200,7 @@ void ErrorWatch::after_step(StepControl &control, const double length, const New
       controls_[i].measure_steps(probe_length_, results[i], probe_.results[i],
                                  residual_factor_ * (report.force + last_residual_ + probe_.newton.force));
   take_measurement();
+  allow_penetration();
   if (!measures_steps_)
     return;
   probe_length_ = 0.;

@@ -4,6 +4,7 @@
 #include "billet/discretization/element_key.h"
 #include "billet/discretization/node_keys.h"
 #include "billet/discretization/smooth_facets.h"
+#include "billet/discretization/supports.h"
 #include "billet/solve/refined_reader.h"
 #include "billet/solve/restart.h"
 
@@ -85,9 +86,10 @@ double sum_of(const std::vector<double> &parts) { return std::accumulate(parts.b
 
 } // namespace
 
-MeshErrors::MeshErrors(const Discretization &discretization, const std::set<DofIndex> &fixed_nodes)
+MeshErrors::MeshErrors(const Scene &scene, const Discretization &discretization)
     : discretization_(discretization), errors_(discretization.n_bodies()),
       work_outside_(discretization.n_bodies()) {
+  const std::set<DofIndex> fixed_nodes = collect_fixed_nodes(scene, discretization);
   for (std::size_t body = 0; body < discretization.n_bodies(); ++body) {
     elements_.emplace_back(discretization.elements(body).size());
     for (std::size_t e = 0; e < elements_[body].size(); ++e) {
@@ -104,11 +106,14 @@ MeshErrors::MeshErrors(const Discretization &discretization, const std::set<DofI
     }
   }
   volume_ = dealii::Utilities::MPI::sum(volume_, discretization.communicator());
-  measure_facets();
+  measure_facets(scene.parameters());
 }
 
-void MeshErrors::measure_facets() {
+void MeshErrors::measure_facets(const parameters::Scene &parameters) {
   for (std::size_t body = 0; body < elements_.size(); ++body) {
+    const parameters::Mesh &mesh = parameters.bodies[body].mesh;
+    if (mesh.section_area.value > 0. && mesh.positions.value.empty())
+      continue;
     const std::vector<BoundaryFacet> facets = collect_boundary_facets(discretization_, body);
     const std::vector<SmoothFacet> smooth = make_smooth_facets(discretization_, facets);
     std::map<std::uint64_t, double> outside; // by element

@@ -6,9 +6,19 @@
 
 namespace billet {
 
+namespace {
+
+/// Returns what the stiffness of bodies is in proportion to under this force, as between two
+/// spheres by Hertz. It is between bodies that touch fully, with none, and those whose contact
+/// spreads faster.
+double stiffness_under(const double force) { return std::cbrt(force); }
+
+} // namespace
+
 void PenetrationErrors::accept(const double h, const double force, const double penetration) {
-  integral_ += slope_ * penetration * force * h;
-  unmeasured_ += penetration * force * h;
+  const double shift = penetration * stiffness_under(force) * h;
+  integral_ += slope_ * shift;
+  unmeasured_ += shift;
   interval_.count_step();
 }
 
@@ -24,9 +34,11 @@ void PenetrationErrors::measure(const ForceCourse &course, const double penetrat
   const bool is_first = !is_measured_;
   is_measured_ = true;
   const double last_slope = slope_;
-  slope_ = error / (force * penetration);
+  slope_ = error / (stiffness_under(force) * penetration);
   // Steps since the last measurement use the geometric mean of both slopes.
-  integral_ += ((is_first ? slope_ : std::sqrt(last_slope * slope_)) - last_slope) * unmeasured_;
+  // Less than nothing is round-off.
+  integral_ = std::max(0., integral_ + ((is_first ? slope_ : std::sqrt(last_slope * slope_)) - last_slope) *
+                                           unmeasured_);
   unmeasured_ = 0.;
   if (error <= MeasurementInterval::little * tolerance_ * force)
     interval_.start(MeasurementInterval::max);
@@ -37,8 +49,7 @@ void PenetrationErrors::measure(const ForceCourse &course, const double penetrat
   if (tolerance_ == 0. || !(error > 0.))
     return;
   // The error is proportional to penetration; the smallest tolerance is the lower limit.
-  const double allowed = max_over_mean * tolerance_ * std::max(course.scale(), force);
-  allowed_ = std::max(1., penetration * allowed / error);
+  allowed_ = penetration * tolerance_ * std::max(course.scale(), force) / error;
 }
 
 void PenetrationErrors::save(StateWriter &writer) const {

@@ -127,7 +127,11 @@ class Measured:
                     run.work,
                     number(run.seconds),
                     percent(point.error) if not math.isnan(point.error) else "–",
-                    f"{earlier.work}: {percent(off(earlier, self.exact))}" if earlier else "",
+                    (
+                        f"{earlier.work}, {number(earlier.seconds)} s: {percent(off(earlier, self.exact))}"
+                        if earlier
+                        else ""
+                    ),
                     f"{best.words}: {number(best.work)}, {percent(best.error)}" if best else "",
                     number(run.work / best.work) if best else "",
                 ]
@@ -176,9 +180,9 @@ publish(
         "- Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs of bodies, as in (W1) of"
         " the theory. For explicit scenes, and scenes without contact, it is that of kinetic energy and of"
         " what is stored or dissipated. The error of the mesh is not in it.\n"
-        "- Before: work and error as they were, on the same mesh. Contact of fast had penalties alone."
-        " Static steps of balanced were up to a tenth of the end time, those of accurate up to 0.02 of it."
-        " Dynamics are unchanged.\n"
+        "- Before: work, CPU seconds and error as they were, on the same mesh. Contact of fast had penalties"
+        " alone. Static steps of balanced were up to a tenth of the end time, those of accurate up to 0.02"
+        " of it. Dynamics are unchanged.\n"
         "- As shipped: the scene's own settings, with balanced for what it leaves open.\n"
         "- By hand: the cheapest of"
         f" {min(n_hand)} to {max(n_hand)} settings whose error is at most {AS_GOOD:g} times the profile's."

@@ -9,6 +9,7 @@ holds for any mesh, and with theory. The scenes themselves run in tests/benchmar
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 
 from checks import SHIPPED, Checks, enter_folder, equal, near, require, run
 from rolling_theory import force_and_torque
@@ -83,6 +84,9 @@ def _() -> None:
     equal("force on the catch", abs(inside[0]["catch.force_x"]) + abs(inside[0]["catch.force_y"]), 0.0)
     # Friction dissipates the work of the way.
     near("friction", inside[0]["friction_dissipation"], inside[0]["external_work"], 1e-2)
+    # Its largest force is that on a flat ramp, but over the run coarse fillets bear some of it.
+    said = " ".join(Path("snap_fit/billet.log").read_text(encoding="utf-8").split())
+    require("unknown, since" in said and "of the force of the pair 'hook on catch'" in said, said)
     check_climb([row for row in rows if row["time"] > 1], REMOVAL, "heel")
 
 

@@ -71,6 +71,7 @@ for ranks in (1, 2):
         require(0.5 <= estimate / true <= 3.0, f"estimated {estimate}, true {true}")
         says(r"^note\[mesh-levels\]: .*of order", ran.said)
         says(r"^Mesh level -\d, coarser than given", ran.said)
+        says(r"^Target error 3 % \(2 % for the mesh\):", ran.said)
 
 
 @check("the results are those of the last level, and earlier levels are beside them")

@@ -82,6 +82,11 @@ int main(int argc, char *argv[]) {
   check("steps that the target requires", seconds(costs), 0.);
   costs.steps_error = 0.0005;
   check("finer ones", std::abs(seconds(costs) - 6.), 1e-12);
+  costs.limited_steps = 8.;
+  check("finer ones of the scene's maximum", std::abs(seconds(costs) - 10.), 1e-12);
+  check("they are named", says(costs, "half the length"));
+  costs.steps_error = 0.002;
+  check("a maximum that the target requires", seconds(costs), 0.);
   costs.all = 0.9;
   costs.fields = 0.;
   costs.error_control = 0.8;

@@ -90,9 +90,8 @@ int main() {
     check("without force there is nothing", !ForceSpread().has_few_nodes());
     ForceSpread curved = spread({1., 1.});
     curved.on_coarse_curves = 1.;
-    check("half of the force on coarse curves is borne", !curved.is_coarse_on_curves());
-    curved.on_coarse_curves = 1.1;
-    check("more is not", curved.is_coarse_on_curves());
+    check("half of the force is on coarse curves", curved.part_on_coarse() == 0.5);
+    check("without force none is", ForceSpread().part_on_coarse() == 0.);
   }
   return billet::testing::exit_code();
 }

@@ -133,9 +133,13 @@ int main() {
   ErrorControl deep({0., 1e-3}, 1.);
   deep.accept(0.1, force(0.1, 0.), 1e-5, 100.);
   deep.measure_penetration(100., force(0.1, 0.), force(0.1, 0.032), 0.);
-  // Of 1 % of the force a thousandth may stay, and twice as much at most; of a force that grows like this
-  // until the end its mean.
-  check("what penetration is allowed", near(deep.penetration_allowed(), 20. * 5.5, 1e-9));
+  // Of 1 % of the force a thousandth may stay; of a force that grows like this until the end its mean.
+  check("what penetration is allowed", near(deep.penetration_allowed(), 10. * 5.5, 1e-9));
+  ErrorControl within({0., 1e-3}, 1.);
+  within.accept(0.1, force(0.1, 0.), 1e-5, 100.);
+  within.measure_penetration(100., force(0.1, 0.), force(0.1, 0.0008), 0.);
+  check("twice that while the errors are within their mean",
+        near(within.penetration_allowed(), 2. * 400. * 5.5, 1e-9));
   ErrorControl left({0., 0.}, 1.);
   left.accept(0.1, force(0.1, 0.), 0., 100.);
   left.measure_penetration(100., force(0.1, 0.), force(0.1, 0.032), 0.);

@@ -237,13 +237,15 @@ int main() {
     PenetrationErrors errors(0.01);
     errors.accept(0.5, 10., 2.);
     check("errors are not known before a measurement", !errors.is_known() && errors.wants_measurement());
-    check("but what may be allowed", std::abs(errors.allowed_at_first() - 0.02), tolerance);
+    check("but what may be allowed", std::abs(errors.allowed_at_first() - 0.01), tolerance);
     errors.measure(course, 2., force(10.), force(11.), 0.);
     // A tenth of the forces at all times; the scale is 10 + 20 * 0.5/2 = 15.
     check("errors in proportion", std::abs(errors.integral() - 0.1 * 10. * 0.5), tolerance);
-    check("the penetration to allow is not below the tightest", errors.allowed() == 1.);
+    check("the penetration to allow is not below the tightest", errors.allowed(5.) == 1.);
     errors.measure(course, 200., force(10.), force(11.), 0.);
-    check("the penetration to allow", std::abs(errors.allowed() - 200. * 0.02 * 15.), 1e-12);
+    check("the penetration to allow", std::abs(errors.allowed(5.) - 200. * 0.01 * 15.), 1e-12);
+    check("twice that while the error is within the mean", std::abs(errors.allowed(50.) - 200. * 0.02 * 15.),
+          1e-12);
     check("then measurements are rare", errors.is_known() && !errors.wants_measurement());
   }
   check("penetrations that cause a tenth of what is allowed are measured seldom",

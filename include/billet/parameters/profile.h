@@ -23,8 +23,10 @@ struct Preset {
 void declare_presets(dealii::ParameterHandler &prm);
 
 /// Gives the parameters in `prm` that `file` does not set the values of its profile or target
-/// error. Returns these parameters. Call it before prm is read. Throws InputError.
-std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile &file);
+/// error. Returns these parameters. `generated_pairs`: names of the contact pairs that the scene
+/// itself does not have. Call it before prm is read. Throws InputError.
+std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile &file,
+                                  const std::vector<std::string> &generated_pairs);
 
 /// Returns the part of 'Target error' that is left to sources other than the mesh, as a fraction.
 /// The entry may be '1 percent', '1 %' or '0.01'. The part is all of it with the mesh as given,

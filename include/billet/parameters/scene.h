@@ -51,6 +51,9 @@ struct Scene {
   static Scene read(SceneFile file, const std::string &restart_file);
 
   const SchemeType &scheme() const { return type_of(time_stepping.scheme); }
+  /// Returns the whole target error, and how much of it is left to the mesh: "5 % (3.3 % for the
+  /// mesh)".
+  std::string print_target() const;
   /// Returns the time over which a support or load fades if it has no 'Fade time' [time].
   double automatic_fade_time() const;
   std::size_t body_index(const ContactPair &pair) const;

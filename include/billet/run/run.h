@@ -27,8 +27,7 @@ public:
         discretization_(scene, communicator,
                         resumption == nullptr ? MeshLevels() : resumption->find_levels(scene)),
         review_(scene, discretization_), stability_(scene, discretization_), softening_(scene),
-        mesh_errors_(discretization_, collect_fixed_nodes(scene, discretization_)),
-        probes_(scene, discretization_) {}
+        mesh_errors_(scene, discretization_), probes_(scene, discretization_) {}
   virtual ~Run() = default;
   Run(const Run &) = delete;
   Run &operator=(const Run &) = delete;

@@ -10,7 +10,7 @@ namespace billet {
 /// Costs of a run, and those of them that the scene has used.
 struct RunCosts {
   double all = 0.; ///< wall-clock time [s], as those below
-  double unsymmetric_matrix = 0., self_contact = 0., fields = 0., error_control = 0.;
+  double unsymmetric_matrix = 0., self_contact = 0., fields = 0., error_control = 0., limited_steps = 0.;
   bool slides = false;               ///< whether friction has dissipated energy
   bool self_contact_touches = false; ///< whether any surface has touched itself
   /// Estimated error of the steps, and the target for all errors.
@@ -31,7 +31,8 @@ RunCosts collect_costs(const Scene &scene, const Solution &solution, const RunRe
 /// - an unsymmetric matrix where nothing slides, of whose factorisation a symmetric one takes half;
 /// - self-contact of surfaces that never touch;
 /// - output of fields;
-/// - steps ten times finer than a target error requires.
+/// - steps whose error is a tenth of what a target error allows: comparing them, and half of those
+///   of the scene's own 'Maximum step'.
 DiagnosticList find_unneeded_costs(const RunCosts &costs);
 
 } // namespace billet

@@ -22,7 +22,6 @@ struct ForceSpread {
   /// Σ 1, Σ p, Σ p² of the nodes themselves.
   double nodes = 0., pressures = 0., pressure_squares = 0.;
   double on_coarse_curves = 0.; ///< force of nodes with fewer than five facets on a quarter turn
-  double coarsest = 0.;         ///< facet size / radius of the tool, largest
   /// Energy Σ F²/(2 E h) of the indentation by single nodes, and the energy of all deformation and
   /// contact at that time [energy].
   double indentation = 0., deformation = 0.;
@@ -34,7 +33,8 @@ struct ForceSpread {
   /// Whether the nodes are too few to resolve the indentation, if its energy is a relevant part of
   /// the deformation. For a strip that bends over a roll one row of nodes is enough.
   bool has_few_nodes() const;
-  bool is_coarse_on_curves() const;
+  /// Returns the part of the force on coarse curves.
+  double part_on_coarse() const { return force > 0. ? on_coarse_curves / force : 0.; }
 };
 
 /// Reviews contact over a whole run. It checks the part of penetration in each load path's
@@ -55,9 +55,10 @@ public:
   /// (L6). Returns 0 if it is below the limit of the warning.
   double penalty_error() const;
 
-  /// Whether no pair has facets that are too coarse for its tool's curves, or too few nodes that
-  /// bear force.
-  bool is_resolved() const;
+  /// Returns why the mesh does not resolve the contact; empty if it does. Too few nodes bear force,
+  /// or facets are too coarse for the curves of a tool. A tenth of the force there suffices, though
+  /// it makes no warning.
+  std::string describe_unresolved() const;
 
   /// Whether any surface has touched itself.
   bool self_contact_touches() const;
@@ -76,6 +77,13 @@ private:
     bool has_touched = false;
     double max_force = 0., time = 0.; ///< of the largest force
     ForceSpread spread;               ///< at the largest force
+    /// ∫F dt over the run, and its part on coarse curves as in ForceSpread.
+    double impulse = 0., impulse_on_coarse = 0.;
+    double coarsest = 0.; ///< facet size / radius of the tool under a force, largest of the run
+
+    /// Returns the part of the force on coarse curves, at its maximum or over the run.
+    double part_on_coarse() const;
+    bool is_coarse_on_curves() const;
     /// Largest friction and largest lost friction, each over the run.
     StickSoftness max_friction;
     double max_of_edges = 0.; ///< lower bound of the force on crossing edges [force]
@@ -85,6 +93,8 @@ private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   ForceSpread spread_of(const Pair &pair, const std::vector<ContactNodeReport> &reports) const;
+  /// Adds the forces of a step that ends at this time to those on curves. Collective.
+  void add_on_curves(const std::vector<std::vector<ContactNodeReport>> &reports, double time);
   /// Returns the message if few nodes bear the largest force of a pair and none was reported.
   static DiagnosticList judge_spread(const Pair &pair);
   void judge_pairs(DiagnosticList &diagnostics) const;
@@ -106,6 +116,7 @@ private:
   std::vector<PathSoftness> softness_; ///< by path
   std::vector<double> tool_forces_;    ///< largest, by tool
   StickSprings stick_springs_;
+  double time_ = 0.; ///< of the last step added
 };
 
 } // namespace billet

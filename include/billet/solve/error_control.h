@@ -77,7 +77,7 @@ public:
   /// Returns the maximum length of the next step.
   double longest_step() const { return steps_.longest_step(); }
   /// Returns the maximum penetration allowed, in units of that of measure_penetration().
-  double penetration_allowed() const { return penetrations_.allowed(); }
+  double penetration_allowed() const { return penetrations_.allowed(course_.work()); }
 
   struct Estimate {
     double steps = 0., penetration = 0., iterations = 0.; ///< parts of the forces

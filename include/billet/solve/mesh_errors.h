@@ -2,11 +2,11 @@
 #ifndef BILLET_SOLVE_MESH_ERRORS_H
 #define BILLET_SOLVE_MESH_ERRORS_H
 
+#include "billet/scene/scene.h"
 #include "billet/solve/solution.h"
 #include "billet/state.h"
 
 #include <array>
-#include <set>
 #include <vector>
 
 namespace billet {
@@ -21,9 +21,8 @@ namespace billet {
 /// facets in place of curved surfaces is apart, (W8).
 class MeshErrors {
 public:
-  /// `fixed_nodes`: first dofs of nodes that supports hold in all directions, by
-  /// collect_fixed_nodes().
-  MeshErrors(const Discretization &discretization, const std::set<DofIndex> &fixed_nodes);
+  /// Collective.
+  MeshErrors(const Scene &scene, const Discretization &discretization);
 
   /// Adds a state; the first one begins. An interval of (W4) reaches over the states until one that
   /// ends it. It has their mean stresses, so that waves in opposite directions in it cancel.
@@ -87,8 +86,9 @@ private:
   /// Computes the interval of the owned elements, and gets that of the ghost elements. By active
   /// cell index.
   std::vector<Interval> compare_all(const Solution &solution);
-  /// Compares the facets of each element with the smooth surface.
-  void measure_facets();
+  /// Compares the facets of each element with the smooth surface. Facets of a section with a given
+  /// area already enclose that of the curve.
+  void measure_facets(const parameters::Scene &parameters);
   /// Adds the errors of the interval that ends.
   void add_interval(const Solution &solution);
   /// Returns the work that finer elements would save at an owned element in an interval, (W4).

@@ -6,6 +6,7 @@
 #include "billet/solve/measurement_interval.h"
 #include "billet/solve/result_group.h"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -25,10 +26,9 @@ public:
   /// the rarer, the smaller and steadier the error is.
   bool wants_measurement() const { return interval_.is_due(); }
   /// Returns the maximum error by penetration, as part of the forces, in the first step that
-  /// measures it.
+  /// measures it. In a run of few steps it is much of the whole error.
   double allowed_at_first() const {
-    return is_measured_ || tolerance_ == 0. ? std::numeric_limits<double>::infinity()
-                                            : max_over_mean * tolerance_;
+    return is_measured_ || tolerance_ == 0. ? std::numeric_limits<double>::infinity() : tolerance_;
   }
   /// Adds a measurement after the last step of `course`; see ErrorControl::measure_penetration().
   void measure(const ForceCourse &course, double penetration, const ResultGroup &forces,
@@ -36,8 +36,11 @@ public:
   /// Notes that no error was found; see ErrorControl::miss_penetration().
   void miss(const bool touches) { interval_.wait(touches && is_measured_ ? MeasurementInterval::max : 0); }
 
-  /// Returns the maximum penetration allowed.
-  double allowed() const { return allowed_; }
+  /// Returns the maximum penetration allowed after forces of this integral over time. While the
+  /// errors so far are within the tolerance, penetration may be larger than on average.
+  double allowed(const double work) const {
+    return std::max(1., integral_ > tolerance_ * work ? allowed_ : max_over_mean * allowed_);
+  }
   /// Returns the integral of the errors over time.
   double integral() const { return integral_; }
   /// Whether the error by penetration has been measured, or there was no penetration.
@@ -48,17 +51,19 @@ public:
   void load(const StateReader &reader);
 
 private:
-  /// Augmentation leaves less than allowed, about half of it on average.
+  /// Augmentation leaves less than allowed, about half of it on average. Penalties that need none
+  /// may leave all of it.
   static constexpr double max_over_mean = 2.;
 
   double tolerance_;
   double integral_ = 0.;
-  /// Error, as part of the forces, over the deepest penetration, at the last measurement.
+  /// Error of the forces over the deepest penetration times what the stiffness of the bodies is in
+  /// proportion to, at the last measurement.
   double slope_ = 0.;
-  double unmeasured_ = 0.; ///< ∫ penetration Σ|F| dt of the steps since the last measurement
+  double unmeasured_ = 0.; ///< ∫ of the latter dt over the steps since the last measurement
   bool is_measured_ = false;
   MeasurementInterval interval_{0};
-  double allowed_ = std::numeric_limits<double>::infinity();
+  double allowed_ = std::numeric_limits<double>::infinity(); ///< on average
 };
 
 } // namespace billet

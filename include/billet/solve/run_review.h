@@ -35,8 +35,8 @@ public:
   /// Returns the part by which penetration makes forces too small; 0 if it is small.
   double penalty_error() const { return contacts_.penalty_error(); }
 
-  /// Whether the mesh resolves all contact, as far as warnings tell.
-  bool resolves_contact() const { return contacts_.is_resolved(); }
+  /// Returns why the mesh does not resolve all contact; empty if it does, as far as known.
+  std::string describe_unresolved_contact() const { return contacts_.describe_unresolved(); }
 
   /// Whether any surface has touched itself.
   bool self_contact_touches() const { return contacts_.self_contact_touches(); }
