@@ -94,25 +94,41 @@ HistoryTable HistoryTable::from_zero() const {
 }
 
 HistoryDifference compare_histories(const HistoryTable &first, const HistoryTable &second,
-                                    const bool has_inertia) {
+                                    const bool has_inertia, const double reach) {
   const HistoryTable a = has_inertia ? first : first.from_zero(),
                      b = has_inertia ? second : second.from_zero();
-  const std::string reactions = R"(.*\.(support|symmetry plane) .*\.force_[xyz])",
-                    given = R"(.*\.load .*\.force_[xyz])";
-  const std::vector<std::pair<std::string, std::regex>> groups = {
-      {"forces", std::regex("(?!" + reactions + "|" + given + R"().*\.force_[xyz])")},
-      {"reactions", std::regex(reactions)},
-      {"energies", std::regex("elastic_energy|plastic_work|friction_dissipation|kinetic_energy")},
-      {"travel of tools", std::regex(R"(.*\.travel_[xyz])")}};
-  HistoryDifference largest;
-  for (const auto &[what, pattern] : groups) {
-    if (has_inertia && what != "energies")
-      continue;
+  const auto compare = [&](const std::string &pattern) {
+    const std::regex regex(pattern);
     std::vector<std::string> names;
     for (const std::string &name : b.names())
-      if (std::regex_match(name, pattern) && !a.column(name).empty())
+      if (std::regex_match(name, regex) && !a.column(name).empty())
         names.push_back(name);
-    const auto [difference, size] = integrate(a, b, names);
+    return integrate(a, b, names);
+  };
+  const std::string reactions = R"(.*\.(support|symmetry plane) .*\.)", given = R"(.*\.load .*\.)",
+                    of_contacts = "(?!" + reactions + "|" + given + R"().*\.)";
+  struct Group {
+    std::string what, pattern;
+    std::string moments, of_moments; ///< in place of it, and their pattern; empty: none
+  };
+  const std::vector<Group> groups = {
+      {"forces", of_contacts + "force_[xyz]", "moments", of_contacts + "moment_[xyz]"},
+      {"reactions", reactions + "force_[xyz]", "moments of supports", reactions + "moment_[xyz]"},
+      {"energies", "elastic_energy|plastic_work|friction_dissipation|kinetic_energy", "", ""},
+      {"travel of tools", R"(.*\.travel_[xyz])", "", ""}};
+  constexpr double far = 1e3; // a force makes a moment of no more than itself times the reach
+  HistoryDifference largest;
+  for (const Group &group : groups) {
+    if (has_inertia && group.what != "energies")
+      continue;
+    auto [difference, size] = compare(group.pattern);
+    std::string what = group.what;
+    if (!group.moments.empty())
+      if (const auto [of_moments, moments] = compare(group.of_moments); moments > far * reach * size) {
+        difference = of_moments;
+        size = moments;
+        what = group.moments;
+      }
     if (size > 0. && (largest.of_what.empty() || difference / size > largest.part))
       largest = {difference / size, what};
   }

@@ -55,7 +55,7 @@ void report_errors(ErrorReport report, const MeshErrors &mesh, const Discretizat
     report.sources.push_back(
         {"soft contact", review.penalty_error(), "Increase the penalties that the warnings name"});
   report.mesh = mesh.error();
-  report.is_mesh_known = mesh.sees_variation() && review.describe_unresolved_contact().empty();
+  report.is_mesh_known = mesh.sees_variation() && review.describe_unresolved().empty();
   report.mesh_target = parameters.mesh_target.error;
   report.costs.emplace_back("CPU seconds",
                             dealii::Utilities::MPI::sum(processor_time(), discretization.communicator()));
@@ -81,9 +81,9 @@ DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const RunReview &rev
     text << ". Flat facets in place of curved surfaces may make another " << 100. * geometry << " %";
   text << ". Contact between nodes, folds and plastic hinges are not in it";
   if (!mesh.sees_variation())
-    text << ". The whole error is unknown, since parts with a single element across bend, or have all nodes "
-            "held by supports: it may be far larger";
-  else if (const std::string why = review.describe_unresolved_contact(); !why.empty())
+    text << ". The whole error is unknown, since parts with a single element across bend, bars of two by two "
+            "are twisted or bent, or supports hold all nodes of elements: it may be far larger";
+  else if (const std::string why = review.describe_unresolved(); !why.empty())
     text << ". The whole error is unknown, since " << why;
   Diagnostic message(diagnostic::mesh_error, text.str());
   message.value("error", mesh.error()).value("geometry", geometry);

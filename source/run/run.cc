@@ -45,10 +45,11 @@ void Run::save(StateWriter &writer) const {
 std::vector<BodyMesh> Run::body_meshes() const {
   const std::vector<std::size_t> counts = discretization_.count_elements();
   const std::vector<double> errors = mesh_errors_.of_bodies(), geometry = mesh_errors_.geometry_of_bodies();
-  const bool is_resolved = mesh_errors_.sees_variation() && review_.describe_unresolved_contact().empty();
+  const bool is_resolved = mesh_errors_.sees_variation() && review_.describe_unresolved().empty();
   std::vector<BodyMesh> bodies;
   for (std::size_t b = 0; b < counts.size(); ++b)
-    bodies.push_back({counts[b], errors[b] + geometry[b], is_resolved});
+    bodies.push_back({counts[b], errors[b] + geometry[b], is_resolved,
+                      discretization_.centre().norm() + discretization_.radius()});
   return bodies;
 }
 

@@ -8,6 +8,7 @@
 #include "billet/output/history_comparison.h"
 #include "billet/run/body_levels.h"
 #include "billet/run/mesh_levels.h"
+#include "billet/run/mesh_sizes.h"
 #include "billet/run/output_folder.h"
 #include "billet/run/stopwatch.h"
 
@@ -37,6 +38,7 @@ struct Level {
   std::vector<int> bodies; ///< level of each
   double seconds = 0.;     ///< of all processors
   double difference = 0.;  ///< from the level before; 0: there is none
+  std::string of_what{};   ///< results that differ most
   MeshLevelError error{};  ///< of this level, if there is one before it
 };
 
@@ -197,37 +199,59 @@ private:
     bodies_.allow(given_.mesh_target.error + spare);
     Level level{bodies_.level(), bodies_.levels()};
     level.seconds = dealii::Utilities::MPI::sum(seconds, communicator_);
-    if (!levels_.empty())
-      compare(level);
+    if (!levels_.empty()) {
+      double reach = 0.;
+      for (const BodyMesh &body : bodies)
+        reach = std::max(reach, body.reach);
+      compare(level, reach);
+    }
     bodies_.add(level.difference, bodies);
     level.error = bodies_.error();
     levels_.push_back(level);
+    const bool is_met = bodies_.is_met() && shows_given_bodies();
     const int finest = static_cast<int>(given_.mesh_target.finest_level);
     constexpr double fill = 9. / 8.; // factors of matrices grow by more than elements
     const Memory memory = measure_memory(communicator_);
-    const std::string limit = bodies_.is_met()        ? ""
+    const std::string limit = is_met                  ? ""
                               : level.level >= finest ? "'Finest mesh level' is " + std::to_string(finest)
                               : level.level >= 0 && fill * bodies_.growth() * memory.part > 1.
                                   ? "the next level does not fit in memory"
                                   : "";
-    is_last_ = bodies_.is_met() || !limit.empty();
+    is_last_ = is_met || !limit.empty();
     if (!is_last_)
       return {};
     messages_.push_back(describe(others));
     if (!limit.empty())
       messages_.push_back(describe_miss(limit, memory.held));
-    append(messages_, others.missed(bodies_.is_met() ? bodies_.error().error : 0.));
+    append(messages_, others.missed(is_met ? bodies_.error().error : 0.));
     return {messages_, folder_};
   }
 
+  /// Whether the meshes of the last level have the bodies of the given ones, as far as sizes tell.
+  bool shows_given_bodies() const {
+    const Level &last = levels_.back();
+    if (last.level >= 0)
+      return true;
+    const std::vector<int> before = levels_[levels_.size() - 2].bodies;
+    const parameters::Scene of_before = at_mesh_levels(given_, before),
+                            of_last = at_mesh_levels(given_, last.bodies);
+    for (std::size_t b = 0; b < given_.bodies.size(); ++b)
+      if (!approach(MeshSizes::of(of_before.bodies[b]), MeshSizes::of(of_last.bodies[b]),
+                    MeshSizes::of(given_.bodies[b])))
+        return false;
+    return true;
+  }
+
   /// Computes the difference from the level before. All ranks read the files: they are the same.
-  void compare(Level &level) {
+  /// `reach`: the largest distance of bodies from the origin [length].
+  void compare(Level &level, const double reach) {
     fail_together(communicator_, [&] {
       const HistoryTable coarse = HistoryTable::read(folder_of(level.level - 1) + "/history.csv"),
                          fine = HistoryTable::read(folder_of(level.level) + "/history.csv");
-      const HistoryDifference difference = compare_histories(coarse, fine, given_.scheme().has_inertia);
+      const HistoryDifference difference =
+          compare_histories(coarse, fine, given_.scheme().has_inertia, reach);
       level.difference = difference.part;
-      of_what_ = difference.of_what.empty() ? "results" : difference.of_what;
+      level.of_what = difference.of_what.empty() ? "results" : difference.of_what;
     });
   }
 
@@ -284,7 +308,8 @@ private:
       text << (&level == levels_.data() ? " " : "; ") << "level " << level.level
            << bodies_behind(level.level, level.bodies) << ", " << level.seconds << " s of processor";
       if (&level != levels_.data())
-        text << ", " << of_what_ << " differ by " << percent(level.difference) << " from the level before";
+        text << ", " << level.of_what << " differ by " << percent(level.difference)
+             << " from the level before";
     }
     if (levels_.size() < 2) {
       text << ". Their error is unknown: there is one level only";
@@ -336,7 +361,7 @@ private:
   MPI_Comm communicator_;
   const RunOptions &options_;
   bool is_first_;
-  std::string folder_, of_what_ = "results";
+  std::string folder_;
   BodyLevels bodies_;
   std::vector<Level> levels_;
   DiagnosticList messages_; ///< for the run on the last level

@@ -32,17 +32,16 @@ std::vector<Unneeded> list_unneeded(const RunCosts &costs) {
          "leave such pairs out, with 'Contact = all' by 'Self-contact = false' in 'General contact'"});
   if (costs.fields > much * costs.all)
     list.push_back({costs.fields, "the output of fields", "a larger 'Interval' in 'Output' writes fewer"});
+  double listed = 0.;
+  for (const Unneeded &one : list)
+    listed += one.seconds;
   constexpr double finer = 0.1;
-  constexpr double twice_as_long = 0.5; // four times the error, at order 2
-  if (costs.target > 0. && costs.steps_error < finer * costs.target) {
-    list.push_back({costs.error_control,
-                    "the comparison of steps that are ten times finer than the target requires",
+  // Twice as long steps make twice the error. What else is listed is part of these steps.
+  constexpr double of_longer = 0.5;
+  if (costs.target > 0. && costs.steps_error < finer * costs.target)
+    list.push_back({costs.error_control + of_longer * std::max(0., costs.limited_steps - listed),
+                    "steps that are ten times finer than the target requires, and their comparison",
                     "a larger 'Maximum step' or 'Initial step', where the scene sets them"});
-    if (costs.limited_steps > 0.)
-      list.push_back({twice_as_long * costs.limited_steps,
-                      "steps of half the length that the target allows, or less",
-                      "twice the 'Maximum step' of the scene"});
-  }
   std::sort(list.begin(), list.end(), [](const auto &a, const auto &b) { return a.seconds > b.seconds; });
   return list;
 }

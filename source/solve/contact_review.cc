@@ -172,9 +172,10 @@ void ContactReview::add_on_curves(const std::vector<std::vector<ContactNodeRepor
     }
   dealii::Utilities::MPI::sum(forces, discretization_.communicator(), forces);
   dealii::Utilities::MPI::max(coarsest, discretization_.communicator(), coarsest);
+  const double elapsed = std::isnan(time_) ? 0. : time - time_;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    pairs_[p].impulse += (time - time_) * forces[2 * p];
-    pairs_[p].impulse_on_coarse += (time - time_) * forces[2 * p + 1];
+    pairs_[p].impulse += elapsed * forces[2 * p];
+    pairs_[p].impulse_on_coarse += elapsed * forces[2 * p + 1];
     pairs_[p].coarsest = std::max(pairs_[p].coarsest, coarsest[p]);
   }
   time_ = time;

@@ -96,9 +96,6 @@ MeshErrors::MeshErrors(const Scene &scene, const Discretization &discretization)
       const Element &element = discretization.elements(body)[e];
       const CellIterator &cell = element.cell;
       volume_ += cell->measure();
-      for (unsigned int d = 0; d < 3; ++d)
-        elements_[body][e].is_alone[d] =
-            cell->face(2 * d)->at_boundary() && cell->face(2 * d + 1)->at_boundary();
       elements_[body][e].is_fixed = true;
       for (unsigned int a = 0; a < n_element_nodes; ++a)
         if (fixed_nodes.count(element.dofs[3 * a]) == 0)
@@ -106,14 +103,46 @@ MeshErrors::MeshErrors(const Scene &scene, const Discretization &discretization)
     }
   }
   volume_ = dealii::Utilities::MPI::sum(volume_, discretization.communicator());
-  measure_facets(scene.parameters());
+  find_unseen(scene);
+  measure_facets();
 }
 
-void MeshErrors::measure_facets(const parameters::Scene &parameters) {
+void MeshErrors::find_unseen(const Scene &scene) {
+  const double tolerance = Constraint::rounding * discretization_.radius();
   for (std::size_t body = 0; body < elements_.size(); ++body) {
-    const parameters::Mesh &mesh = parameters.bodies[body].mesh;
-    if (mesh.section_area.value > 0. && mesh.positions.value.empty())
-      continue;
+    const auto &constraints = scene.bodies()[body].constraints;
+    // A side in a symmetry plane has a mirror image beyond it.
+    const auto is_free = [&](const CellIterator &cell, const unsigned int f) {
+      return cell->face(f)->at_boundary() &&
+             std::none_of(constraints.begin(), constraints.end(), [&](const Constraint &constraint) {
+               return constraint.on_plane &&
+                      std::abs(cell->face(f)->center() * constraint.normal - constraint.offset) < tolerance;
+             });
+    };
+    // Whether a free face is across the neighbour at a face.
+    const auto ends_beyond = [&](const CellIterator &cell, const unsigned int f) {
+      if (cell->face(f)->at_boundary() || cell->neighbor(f)->has_children())
+        return false;
+      const unsigned int of_neighbour = cell->neighbor_of_neighbor(f);
+      return is_free(cell->neighbor(f), dealii::GeometryInfo<3>::opposite_face[of_neighbour]);
+    };
+    for (std::size_t e = 0; e < elements_[body].size(); ++e) {
+      const CellIterator &cell = discretization_.elements(body)[e].cell;
+      std::array<bool, 3> is_pair{};
+      for (unsigned int d = 0; d < 3; ++d)
+        is_pair[d] = (is_free(cell, 2 * d) && ends_beyond(cell, 2 * d + 1)) ||
+                     (is_free(cell, 2 * d + 1) && ends_beyond(cell, 2 * d));
+      const bool is_bar = std::count(is_pair.begin(), is_pair.end(), true) > 1;
+      for (unsigned int d = 0; d < 3; ++d)
+        elements_[body][e].is_unseen[d] =
+            (cell->face(2 * d)->at_boundary() && cell->face(2 * d + 1)->at_boundary()) ||
+            (is_bar && is_pair[d]);
+    }
+  }
+}
+
+void MeshErrors::measure_facets() {
+  for (std::size_t body = 0; body < elements_.size(); ++body) {
     const std::vector<BoundaryFacet> facets = collect_boundary_facets(discretization_, body);
     const std::vector<SmoothFacet> smooth = make_smooth_facets(discretization_, facets);
     std::map<std::uint64_t, double> outside; // by element
@@ -141,7 +170,7 @@ MeshErrors::Interval MeshErrors::compare(const ElementVectors &positions, const 
   interval.strain = std::sqrt(2. / 3.) * equivalent_of(strain);
   interval.work = volume * (interval.stress * strain);
   for (unsigned int d = 0; d < 3; ++d)
-    if (element.is_alone[d]) {
+    if (element.is_unseen[d]) {
       Tensor<1, 3> face;
       face[d] = 1.;
       const Stress change = dealii::symmetrize(gradient_at(face, middle, increment).first -

@@ -47,7 +47,7 @@ int main() {
     fine[1].push_back(4. * t);
   }
   const HistoryDifference half = compare_histories(HistoryTable({"time", "die.force_z"}, coarse),
-                                                   HistoryTable({"time", "die.force_z"}, fine), false);
+                                                   HistoryTable({"time", "die.force_z"}, fine), false, 1.);
   check("forces of half the size", std::abs(half.part - 0.5), 1e-14);
   check("they are forces", half.of_what == "forces");
   const auto compare_rows = [](const std::vector<std::string> &names, const std::vector<double> &a,
@@ -57,7 +57,7 @@ int main() {
       of_a.push_back({a[i]});
       of_b.push_back({b[i]});
     }
-    return compare_histories(HistoryTable(names, of_a), HistoryTable(names, of_b), false);
+    return compare_histories(HistoryTable(names, of_a), HistoryTable(names, of_b), false, 1.);
   };
   check("a single step counts from zero on",
         std::abs(compare_rows({"time", "die.force_z"}, {1., 3.}, {1., 4.}).part - 0.25), 1e-14);
@@ -70,14 +70,22 @@ int main() {
       {1., 1000., 2., 0.}, {1., 1000., 1., 1.});
   check("reactions do count, and given forces do not",
         std::abs(loaded.part - 1.) < 1e-14 && loaded.of_what == "reactions");
+  const HistoryDifference twisted = compare_rows({"time", "bar.support a.force_z", "bar.support a.moment_z"},
+                                                 {1., 1e-9, 3.}, {1., 2e-9, 4.});
+  check("moments stand for forces that are round-off",
+        std::abs(twisted.part - 0.25) < 1e-14 && twisted.of_what == "moments of supports");
+  const HistoryDifference pushed =
+      compare_rows({"time", "die.force_z", "die.moment_y"}, {1., 1., 1000.}, {1., 2., 1000.});
+  check("but not for others", std::abs(pushed.part - 0.5) < 1e-14 && pushed.of_what == "forces");
   coarse[1] = {0., 1., 0.};
   fine[1] = {0., 1., 2., 1., 0.}; // twice the hat, of areas 0.5 and 1
   const HistoryDifference hat = compare_histories(HistoryTable({"time", "kinetic_energy"}, coarse),
-                                                  HistoryTable({"time", "kinetic_energy"}, fine), true);
+                                                  HistoryTable({"time", "kinetic_energy"}, fine), true, 1.);
   check("a hat of half the height", std::abs(hat.part - 0.5), 1e-14);
-  check("forces of impacts do not count", compare_histories(HistoryTable({"time", "die.force_z"}, coarse),
-                                                            HistoryTable({"time", "die.force_z"}, fine), true)
-                                              .of_what.empty());
+  check("forces of impacts do not count",
+        compare_histories(HistoryTable({"time", "die.force_z"}, coarse),
+                          HistoryTable({"time", "die.force_z"}, fine), true, 1.)
+            .of_what.empty());
 
   // F_i = F (1 + c h^p): differences c h^p (2^p − 1), error c h^p.
   for (const double order : {1., 1.5, 2.}) {

@@ -84,7 +84,10 @@ int main(int argc, char *argv[]) {
   check("finer ones", std::abs(seconds(costs) - 6.), 1e-12);
   costs.limited_steps = 8.;
   check("finer ones of the scene's maximum", std::abs(seconds(costs) - 10.), 1e-12);
-  check("they are named", says(costs, "half the length"));
+  costs.unsymmetric_matrix = 2.;
+  costs.slides = false;
+  check("parts of steps count once", std::abs(seconds(costs) - (1. + 6. + 0.5 * 7.)), 1e-12);
+  costs.slides = true;
   costs.steps_error = 0.002;
   check("a maximum that the target requires", seconds(costs), 0.);
   costs.all = 0.9;

@@ -30,7 +30,8 @@ private:
 /// Difference of two histories of a scene.
 struct HistoryDifference {
   double part = 0.; ///< of the results of the second history
-  /// "forces", "reactions", "energies" or "travel of tools"; empty if no result differs from 0.
+  /// "forces", "reactions", "energies" or "travel of tools"; "moments" or "moments of supports" in
+  /// place of the first two. Empty if no result differs from 0.
   std::string of_what;
 };
 
@@ -39,7 +40,11 @@ struct HistoryDifference {
 /// reactions of supports and symmetry planes, which would dilute them; energies; travel of tools.
 /// With inertia, energies alone count, from the first row on. Forces of impacts are no functions of
 /// time that two meshes share.
-HistoryDifference compare_histories(const HistoryTable &first, const HistoryTable &second, bool has_inertia);
+///
+/// Forces that moments exceed by far, as in torsion, are round-off; then these moments count.
+/// `reach`: the largest distance of bodies from the origin, or more [length].
+HistoryDifference compare_histories(const HistoryTable &first, const HistoryTable &second,
+                                    const bool has_inertia, const double reach);
 
 } // namespace billet
 

@@ -21,6 +21,7 @@ struct BodyMesh {
   /// Part of the relative error of the forces, by (W5) and (W8) of the theory.
   double error;
   bool is_resolved = true; ///< whether that sees all: what varies in single elements, and contact
+  double reach = 0.;       ///< largest distance of all bodies from the origin, or more [length]
 };
 
 /// Messages and folder of a run that has reached its end.

@@ -10,6 +10,7 @@
 #include "billet/solve/stick_softness.h"
 #include "billet/state.h"
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -116,7 +117,8 @@ private:
   std::vector<PathSoftness> softness_; ///< by path
   std::vector<double> tool_forces_;    ///< largest, by tool
   StickSprings stick_springs_;
-  double time_ = 0.; ///< of the last step added
+  /// Of the last step added; NaN: none.
+  double time_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 } // namespace billet

@@ -39,8 +39,8 @@ public:
   std::vector<double> of_bodies() const;
   /// Whether the jumps can tell the error, (W9). They cannot if much of the strain varies within
   /// elements that have no neighbour on either side. Examples are those of a wall of one element
-  /// that bends. Nor can they where supports hold all nodes of an element, as in a bonded layer of
-  /// one element.
+  /// that bends, or of a bar of two by two that is twisted. Nor can they where supports hold all
+  /// nodes of an element, as in a bonded layer of one element.
   bool sees_variation() const;
   /// Returns the relative error of the geometry, (W8). It is the part of the work of deformation
   /// that the space between the facets and the smooth surfaces would do. The space is assumed to
@@ -65,8 +65,9 @@ private:
     double error = 0.;              ///< work that finer elements would save so far [energy]
     /// Volume between its facets and the smooth surface, over its own.
     double outside = 0.;
-    /// Whether it has no neighbour on either side, in each of its own directions.
-    std::array<bool, 3> is_alone{};
+    /// Whether jumps do not tell what varies in each of its own directions. It has no neighbour on
+    /// either side there, or is one of two by two in the section of a bar.
+    std::array<bool, 3> is_unseen{};
     bool is_fixed = false; ///< whether supports hold all of its nodes
   };
   /// Element in an interval.
@@ -86,9 +87,10 @@ private:
   /// Computes the interval of the owned elements, and gets that of the ghost elements. By active
   /// cell index.
   std::vector<Interval> compare_all(const Solution &solution);
-  /// Compares the facets of each element with the smooth surface. Facets of a section with a given
-  /// area already enclose that of the curve.
-  void measure_facets(const parameters::Scene &parameters);
+  /// Compares the facets of each element with the smooth surface.
+  void measure_facets();
+  /// Finds the directions of elements in which variation is unseen.
+  void find_unseen(const Scene &scene);
   /// Adds the errors of the interval that ends.
   void add_interval(const Solution &solution);
   /// Returns the work that finer elements would save at an owned element in an interval, (W4).

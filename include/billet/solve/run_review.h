@@ -35,8 +35,12 @@ public:
   /// Returns the part by which penetration makes forces too small; 0 if it is small.
   double penalty_error() const { return contacts_.penalty_error(); }
 
-  /// Returns why the mesh does not resolve all contact; empty if it does, as far as known.
-  std::string describe_unresolved_contact() const { return contacts_.describe_unresolved(); }
+  /// Returns why errors of the mesh are unknown: elements are too stiff or too soft, or it does not
+  /// resolve the contact. Empty if nothing is known against it.
+  std::string describe_unresolved() const {
+    return elements_.error() > 0. ? "elements are too stiff or too soft, as a warning says"
+                                  : contacts_.describe_unresolved();
+  }
 
   /// Whether any surface has touched itself.
   bool self_contact_touches() const { return contacts_.self_contact_touches(); }

@@ -40,6 +40,24 @@ class Output(ABC):
         return self.norm(reference_values)
 
 
+def reactions(result: Result) -> list[str]:
+    """Columns with forces of supports; with their moments where forces are round-off beside them, as in
+    torsion."""
+    forces, moments = (
+        [c for c in result.history if f".{what}_" in c and ".support " in c] for what in ("force", "moment")
+    )
+
+    def largest(columns: list[str]) -> float:
+        return float(max((numpy.abs(result.history[c]).max() for c in columns), default=0.0))
+
+    far = 1e3  # a force makes a moment of no more than itself times its distance from the origin
+    if largest(moments) > far * largest(forces):
+        reach = max(numpy.linalg.norm(mesh.centres, axis=1).max() for mesh in result.body_meshes.values())
+        if largest(moments) > far * reach * largest(forces):
+            return moments
+    return forces
+
+
 def contact_forces(result: Result, scene: Scene) -> list[str]:
     """Columns with forces of tools and of pairs of bodies: not reactions, nor parts of a tool's force, nor
     what loads and tools under a force are given."""
@@ -117,7 +135,7 @@ class Force(Output):
         found = contact_forces(result, scene)
         tools = tuple(f"{name}.force_" for name in scene.names("Tools"))
         of_tools = [column for column in found if column.startswith(tools)]
-        return of_tools or found or [c for c in result.history if ".force_" in c and ".support " in c]
+        return of_tools or found or reactions(result)
 
     def _curve(self, result: Result) -> tuple[Array, Array]:
         """Returns times and forces of the history, with a force of zero at time zero."""
