@@ -8,6 +8,7 @@ import math
 import unittest
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from types import SimpleNamespace
 from typing import Callable, Mapping, cast
 
 import numpy
@@ -294,6 +295,29 @@ end
         self.assertAlmostEqual(
             force.error(run_of(history={"time": times, "die.force_z": 1.1 + 0 * times}), exact), 0.1
         )
+
+
+class TestReactions(unittest.TestCase):
+    """Columns of supports: their moments stand for forces that are round-off beside them."""
+
+    @staticmethod
+    def columns(force: float, moment: float) -> list[str]:
+        history = {
+            "time": numpy.array([1.0]),
+            "bar.support end.force_z": numpy.array([force]),
+            "bar.support end.moment_z": numpy.array([moment]),
+        }
+        mesh = SimpleNamespace(centres=numpy.array([[0.0, 3.0, 4.0]]))  # at a distance of 5
+        run = SimpleNamespace(history=history, body_meshes={"bar": mesh})
+        return outputs.reactions(cast(results.Result, run))
+
+    def test_torsion(self) -> None:
+        self.assertEqual(self.columns(1e-9, 2.0), ["bar.support end.moment_z"])
+
+    def test_push(self) -> None:
+        for moment in (0.0, 4.9e3):
+            self.assertEqual(self.columns(1.0, moment), ["bar.support end.force_z"])
+        self.assertEqual(self.columns(1.0, 5.1e3), ["bar.support end.moment_z"])
 
 
 class TestHistory(unittest.TestCase):
