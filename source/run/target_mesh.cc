@@ -10,6 +10,7 @@
 #include "billet/run/mesh_levels.h"
 #include "billet/run/mesh_sizes.h"
 #include "billet/run/output_folder.h"
+#include "billet/run/run.h"
 #include "billet/run/stopwatch.h"
 
 #include <deal.II/base/mpi.h>
@@ -84,6 +85,7 @@ public:
                 given.mesh_target.error) {}
 
   ExitCode climb() {
+    check_given();
     begin();
     for (;;) {
       const ExitCode code = run();
@@ -101,6 +103,16 @@ private:
   static constexpr unsigned int coarsest = 3;
 
   std::string folder_of(const int level) const { return folder_ + "/mesh_level_" + std::to_string(level); }
+
+  /// Refuses the given scene before there is a folder.
+  void check_given() const {
+    const std::unique_ptr<const Scene> scene = build_scene(given_, communicator_);
+    fail_together(communicator_, [&] {
+      dealii::Triangulation<3> mesh;
+      if (is_first_)
+        scene->build_mesh(MeshDetail::full, mesh);
+    });
+  }
 
   void begin() {
     fail_together(communicator_, [&] {
@@ -151,6 +163,7 @@ private:
       bodies_.rise();
     const int level = bodies_.level();
     parameters::Scene scene = at_mesh_levels(given_, bodies_.levels());
+    raise_penalties(scene);
     scene.output.folder.value = folder_of(level);
     RunOptions options = options_;
     options.log = nullptr;
@@ -182,6 +195,28 @@ private:
     return ExitCode::failed_solution;
   }
 
+  /// Raises the penalties that the target has chosen before any error was known: in explicit scenes
+  /// they stay as they are during a run.
+  void raise_penalties(parameters::Scene &scene) const {
+    for (parameters::ContactPair &pair : scene.pairs)
+      if (std::any_of(scene.presets.begin(), scene.presets.end(), [&](const parameters::Preset &preset) {
+            return preset.key == "Normal penalty" && preset.path.back() == pair.name;
+          })) {
+        pair.penalty.normal *= penalty_raise_;
+        pair.penalty.tangential *= pair.penalty.is_tangential_given ? 1. : penalty_raise_;
+      }
+  }
+
+  /// Learns from the errors of a run by how much the next one must raise penalties.
+  void learn_penalties(const ErrorReport &others) {
+    const auto found = std::find_if(others.sources.begin(), others.sources.end(),
+                                    [](const auto &source) { return source.name == "penetrations"; });
+    if (found == others.sources.end() || !found->is_known)
+      return;
+    constexpr double part = 0.3, most = 8.; // of the target; raise from level to level
+    penalty_raise_ *= std::clamp(found->error / (part * others.target), 1., most);
+  }
+
   /// Begins again with the next finer level.
   void leave_out(const Diagnostic &why) {
     levels_.clear();
@@ -197,6 +232,7 @@ private:
   Verdict judge(const std::vector<BodyMesh> &bodies, const ErrorReport &others, const double seconds) {
     const double spare = others.knows_all() ? std::max(0., others.target - others.total()) : 0.;
     bodies_.allow(given_.mesh_target.error + spare);
+    learn_penalties(others);
     Level level{bodies_.level(), bodies_.levels()};
     level.seconds = dealii::Utilities::MPI::sum(seconds, communicator_);
     if (!levels_.empty()) {
@@ -364,8 +400,9 @@ private:
   std::string folder_;
   BodyLevels bodies_;
   std::vector<Level> levels_;
-  DiagnosticList messages_; ///< for the run on the last level
-  bool is_last_ = false;    ///< whether the latest level is
+  DiagnosticList messages_;   ///< for the run on the last level
+  bool is_last_ = false;      ///< whether the latest level is
+  double penalty_raise_ = 1.; ///< factor of penalties that the target chooses, for the next level
 };
 
 } // namespace

@@ -30,16 +30,16 @@ std::vector<Unneeded> list_unneeded(const RunCosts &costs) {
     list.push_back(
         {costs.self_contact, "self-contact, though no surface touches itself",
          "leave such pairs out, with 'Contact = all' by 'Self-contact = false' in 'General contact'"});
+  double of_steps = 0.;
+  for (const Unneeded &one : list)
+    of_steps += one.seconds;
   if (costs.fields > much * costs.all)
     list.push_back({costs.fields, "the output of fields", "a larger 'Interval' in 'Output' writes fewer"});
-  double listed = 0.;
-  for (const Unneeded &one : list)
-    listed += one.seconds;
   constexpr double finer = 0.1;
-  // Twice as long steps make twice the error. What else is listed is part of these steps.
+  // Twice as long steps make twice the error.
   constexpr double of_longer = 0.5;
   if (costs.target > 0. && costs.steps_error < finer * costs.target)
-    list.push_back({costs.error_control + of_longer * std::max(0., costs.limited_steps - listed),
+    list.push_back({costs.error_control + of_longer * std::max(0., costs.limited_steps - of_steps),
                     "steps that are ten times finer than the target requires, and their comparison",
                     "a larger 'Maximum step' or 'Initial step', where the scene sets them"});
   std::sort(list.begin(), list.end(), [](const auto &a, const auto &b) { return a.seconds > b.seconds; });

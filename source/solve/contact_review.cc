@@ -431,8 +431,10 @@ void ContactReview::load(const StateReader &reader) {
   constexpr std::size_t of_pair = 18;
   const std::vector<double> numbers = reader.read("contact review");
   if (numbers.size() !=
-      tool_forces_.size() + PathSoftness::n_numbers * softness_.size() + of_pair * pairs_.size() + 1)
-    return; // saved for other pairs
+      tool_forces_.size() + PathSoftness::n_numbers * softness_.size() + of_pair * pairs_.size() + 1) {
+    time_ = std::nan(""); // saved for other pairs
+    return;
+  }
   const double *next = numbers.data();
   for (double &force : tool_forces_)
     force = *next++;

@@ -7,6 +7,7 @@ import math
 from typing import Sequence
 
 LOWEST_ORDER, HIGHEST_ORDER = 0.5, 2.0  # of convergence that count
+SAFETY = 1.25  # of an observed order
 
 
 def expected_order(before: float, now: float) -> float:
@@ -22,7 +23,7 @@ def by_levels(differences: Sequence[float], estimates: Sequence[float]) -> float
     by the estimates (W5) of all; NaN of one mesh alone."""
     if not differences:
         return math.nan
-    last = differences[-1]
+    last, factor = differences[-1], 1.0
     if len(differences) < 2:
         order = expected_order(*estimates[-2:])
     else:
@@ -30,4 +31,5 @@ def by_levels(differences: Sequence[float], estimates: Sequence[float]) -> float
         if not before > 2**LOWEST_ORDER * last:
             return max(before, last)
         order = min(HIGHEST_ORDER, math.log2(before / last)) if last > 0 else HIGHEST_ORDER
-    return last / (2**order - 1)
+        factor = SAFETY
+    return factor * last / (2**order - 1)

@@ -92,9 +92,9 @@ int main() {
     const double error = 0.01, last = error * (std::exp2(order) - 1.);
     const MeshLevelError found = extrapolate({last * std::exp2(order), last});
     check("order " + std::to_string(order),
-          std::abs(found.order - order) + std::abs(found.error / error - 1.), 1e-12);
+          std::abs(found.order - order) + std::abs(found.error / (1.25 * error) - 1.), 1e-12);
   }
-  check("no order above that of bricks", std::abs(extrapolate({0.9, 0.03}).error - 0.01), 1e-12);
+  check("no order above that of bricks", std::abs(extrapolate({0.9, 0.03}).error - 0.0125), 1e-12);
   check("one difference stands for the error", extrapolate({0.02}).error == 0.02);
   check("or counts as of the order expected", std::abs(extrapolate({0.03}, 2.).error - 0.01), 1e-15);
   check("differences that grow have no order",

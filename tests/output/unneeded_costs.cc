@@ -87,6 +87,9 @@ int main(int argc, char *argv[]) {
   costs.unsymmetric_matrix = 2.;
   costs.slides = false;
   check("parts of steps count once", std::abs(seconds(costs) - (1. + 6. + 0.5 * 7.)), 1e-12);
+  costs.fields = 3.;
+  check("fields are none", std::abs(seconds(costs) - (1. + 3. + 6. + 0.5 * 7.)), 1e-12);
+  costs.fields = 0.;
   costs.slides = true;
   costs.steps_error = 0.002;
   check("a maximum that the target requires", seconds(costs), 0.);

@@ -13,7 +13,7 @@ import numpy
 import modules  # noqa: F401  finds the next ones
 from billet_tools import UserError
 from billet_tools.scene import Scene, entries
-from billet_tools.trade import bars, cheapest, sources
+from billet_tools.trade import bars, cheapest, parameters, sources
 from billet_tools.trade.budget import Budget
 from billet_tools.trade.explain import in_order, is_shallower
 from billet_tools.trade.explanation import Explanation
@@ -127,6 +127,20 @@ class TestSources(unittest.TestCase):
             found = by_name(scene.changed({path: tolerance}), given)["penetration"]
             self.assertEqual(found.variants, [])
             self.assertIn("too small to reduce", explained([found], Run(1.0)).bars[0].method)
+
+    def test_automatic_augmentation(self) -> None:
+        """Statics that sets no penalty augments by itself, which a penalty in the scene would end."""
+        defaults = DEFAULTS.replace("set Normal penalty =\n", "set Normal penalty = 10\n")
+        scene = Scene(BAR, defaults).changed({"Contact pairs/top/Normal penalty": None})
+        self.assertEqual(scene.get("Contact pairs/top/Normal penalty"), "10")
+        changes = finer(by_name(scene, Given(penetration=0.01))["penetration"])
+        self.assertEqual(changes["Contact pairs/top/Penetration tolerance"], "0.0025")
+        self.assertNotIn("Contact pairs/top/Normal penalty", changes)
+        stiffer = parameters.scaled_penalties(scene, 3.0)
+        self.assertEqual(stiffer["Contact pairs/top/Penetration tolerance"], "automatic")
+        self.assertEqual(stiffer["Contact pairs/top/Normal penalty"], "30")
+        explicit = scene.changed({"Time stepping/Scheme": "explicit"})
+        self.assertEqual(explicit.penetration_tolerance("Contact pairs/top/"), 0.0)
 
     def test_penetration_after_a_ramp(self) -> None:
         """The rest of an initial penetration during a ramp is not that of the contact."""

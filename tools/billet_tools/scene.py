@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 from typing import Any, Iterator, Mapping, NamedTuple
@@ -170,13 +171,29 @@ class Scene:
                 return value
         return None
 
-    def get(self, path: str) -> str:
-        """Returns the value that holds."""
+    def _inherited(self, path: str) -> str | None:
+        """Returns the value that a pair takes from 'General contact'."""
         section, _, key = path.rpartition("/")
         is_of_all = section.startswith("Contact pairs/") and self.has_general_contact
-        inherited = self._of_all.get(key) if is_of_all else None
+        return self._of_all.get(key) if is_of_all else None
+
+    def get(self, path: str) -> str:
+        """Returns the value that holds."""
+        inherited = self._inherited(path)
         otherwise = self.presets.get(path, self.default(path)) if inherited is None else inherited
         return self.entries.get(path, otherwise)
+
+    def is_set(self, path: str) -> bool:
+        """Tells whether the scene, its profile or its target error sets a value: it is no default."""
+        return path in self.entries or path in self.presets or self._inherited(path) is not None
+
+    def penetration_tolerance(self, pair: str) -> float:
+        """Returns the tolerance of a pair in facet sizes: 0 for penalties alone, infinite for an automatic
+        one, which limits no depth. Without a penalty or a tolerance, statics augments by itself."""
+        tolerance = self.get(pair + "Penetration tolerance")
+        if tolerance == "":
+            return 0.0 if self.is_dynamic or self.is_set(pair + "Normal penalty") else math.inf
+        return math.inf if tolerance == "automatic" else float(tolerance)
 
     @property
     def has_general_contact(self) -> bool:

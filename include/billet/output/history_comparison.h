@@ -43,8 +43,8 @@ struct HistoryDifference {
 ///
 /// Forces that moments exceed by far, as in torsion, are round-off; then these moments count.
 /// `reach`: the largest distance of bodies from the origin, or more [length].
-HistoryDifference compare_histories(const HistoryTable &first, const HistoryTable &second,
-                                    const bool has_inertia, const double reach);
+HistoryDifference compare_histories(const HistoryTable &first, const HistoryTable &second, bool has_inertia,
+                                    double reach);
 
 } // namespace billet
 

@@ -117,8 +117,7 @@ private:
   std::vector<PathSoftness> softness_; ///< by path
   std::vector<double> tool_forces_;    ///< largest, by tool
   StickSprings stick_springs_;
-  /// Of the last step added; NaN: none.
-  double time_ = std::numeric_limits<double>::quiet_NaN();
+  double time_ = 0.; ///< of the last step added; NaN: unknown
 };
 
 } // namespace billet

@@ -325,8 +325,10 @@ def has_friction(scene: Scene) -> bool:
 
 
 def scaled_penalties(scene: Scene, factor: float) -> Changes:
-    changes = {}
+    changes: dict[str, object] = {}
     for pair in pairs(scene):
+        if not scene.is_set(pair + "Penetration tolerance") and scene.penetration_tolerance(pair) > 0:
+            changes[pair + "Penetration tolerance"] = "automatic"  # which a penalty alone would end
         for key in ("Normal penalty", "Tangential penalty"):
             if scene.get(pair + key):
                 changes[pair + key] = shown(factor * scene.number(pair + key))

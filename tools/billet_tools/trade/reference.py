@@ -107,8 +107,8 @@ class Plan:
                 # 'automatic' is as far as the program thinks fit, which is no level of an axis.
                 pair: (
                     AUGMENTED
-                    if base.get(pair + "Penetration tolerance") == "automatic"
-                    else base.number(pair + "Penetration tolerance")
+                    if math.isinf(base.penetration_tolerance(pair))
+                    else base.penetration_tolerance(pair)
                 )
                 or (AUGMENTED if pair == "General contact/" or base.get(pair + "Second body") else 0.0)
                 for pair in scene.pairs

@@ -130,15 +130,6 @@ LEAST_PENETRATION = 1e-6  # [facet sizes] below which no run reduces it
 QUARTER = "a quarter of the penetration"
 
 
-def tolerance_of(scene: Scene, pair: str) -> float:
-    """Returns the penetration tolerance of a pair in facet sizes: 0 for penalties alone, infinite for an
-    automatic one, which limits no depth."""
-    tolerance = scene.get(pair + "Penetration tolerance")
-    if tolerance == "":
-        return 0.0 if scene.get(pair + "Normal penalty") else math.inf
-    return math.inf if tolerance == "automatic" else float(tolerance)
-
-
 def end_of_ramps(scene: Scene) -> float:
     """Returns the time from which no initial penetration is left that vanishes in a ramp; before, depths are
     not those of the contact alone."""
@@ -149,7 +140,9 @@ def end_of_ramps(scene: Scene) -> float:
 def penetration_source(scene: Scene, given: Given) -> Source | None:
     """Returns the source whose finer run has four times the penalty. If contact is augmented, that run has a
     quarter of the remaining penetration as tolerance, never more than a quarter of the scene's."""
-    tolerances = {} if scene.is_explicit else {pair: tolerance_of(scene, pair) for pair in scene.pairs}
+    tolerances = (
+        {} if scene.is_explicit else {pair: scene.penetration_tolerance(pair) for pair in scene.pairs}
+    )
     augmented = [pair for pair, tolerance in tolerances.items() if tolerance > 0.0]
     changes: dict[str, object] = {}
     for pair in scene.pairs:
