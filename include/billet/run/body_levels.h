@@ -17,8 +17,8 @@ struct MeshLevelError {
 
 /// Extrapolates the error from the differences between each mesh and the next finer one, at least
 /// one, coarsest first, (W6) of doc/theory/error_estimate.md, with its safety. A single difference
-/// counts as of order `expected_order`. Differences that hardly fall have no order; then the largest
-/// of the last two stands for the error.
+/// counts as of order `expected_order`. Differences that hardly fall have no order; then the
+/// largest of the last two stands for the error.
 MeshLevelError extrapolate(const std::vector<double> &differences, double expected_order = 1.);
 
 /// Chooses levels of the bodies' meshes from run to run until the error is small enough. All bodies
