@@ -136,6 +136,8 @@ class TestSources(unittest.TestCase):
         changes = finer(by_name(scene, Given(penetration=0.01))["penetration"])
         self.assertEqual(changes["Contact pairs/top/Penetration tolerance"], "0.0025")
         self.assertNotIn("Contact pairs/top/Normal penalty", changes)
+        shallow = Given(penetration=0.01, depths={"pair top.deepest_penetration": 0.0009})
+        self.assertEqual(by_name(scene, shallow)["penetration"].variants, [])
         stiffer = parameters.scaled_penalties(scene, 3.0)
         self.assertEqual(stiffer["Contact pairs/top/Penetration tolerance"], "automatic")
         self.assertEqual(stiffer["Contact pairs/top/Normal penalty"], "30")

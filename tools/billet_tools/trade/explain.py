@@ -95,7 +95,8 @@ def explain(
     force = make_force(options, scene, base)
     outputs, weights = make_outputs(options, scene, base, force, as_estimated=True)
     times = [float(t) for t in base.history["time"] if t > 0.0]
-    known = Given(times, max(base.depths(end_of_ramps(scene)).values(), default=math.nan), checked)
+    depths = base.depths(end_of_ramps(scene))
+    known = Given(times, max(depths.values(), default=math.nan), checked, depths)
     sources = sources_of(scene, known)
 
     work = Work(

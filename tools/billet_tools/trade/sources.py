@@ -83,11 +83,19 @@ def same_steps(scene: Scene, times: Sequence[float]) -> Changes:
 
 class Given(NamedTuple):
     """Data of the scene that its sources need: the ends of its steps, the maximum penetration of its contact
-    in facet sizes, and the answer of --check. Without them the sources are only counted."""
+    in facet sizes, and of each column of it, and the answer of --check. Without them the sources are only
+    counted."""
 
     times: Sequence[float] = (0.5, 1.0)
     penetration: float = math.nan
     checked: Mapping[str, Any] = {}
+    depths: Mapping[str, float] = {}
+
+    def is_shallow(self, pair: str) -> bool:
+        """Tells whether the penetration of a pair is small beside that of the contact."""
+        name, small = pair.rstrip("/").split("/")[-1], 0.1
+        own = max(self.depths.get(f"{of}{name}.deepest_penetration", -1.0) for of in ("", "pair "))
+        return 0.0 <= own < small * self.penetration
 
 
 def mesh_source(scene: Scene) -> Source:
@@ -139,7 +147,8 @@ def end_of_ramps(scene: Scene) -> float:
 
 def penetration_source(scene: Scene, given: Given) -> Source | None:
     """Returns the source whose finer run has four times the penalty. If contact is augmented, that run has a
-    quarter of the remaining penetration as tolerance, never more than a quarter of the scene's."""
+    quarter of the remaining penetration as tolerance, never more than a quarter of the scene's. Pairs that
+    hardly penetrate keep theirs."""
     tolerances = (
         {} if scene.is_explicit else {pair: scene.penetration_tolerance(pair) for pair in scene.pairs}
     )
@@ -150,13 +159,14 @@ def penetration_source(scene: Scene, given: Given) -> Source | None:
             keys = [k for k in ("Normal penalty", "Tangential penalty") if scene.get(pair + k)]
             changes.update({pair + k: parameters.shown(4.0 * scene.number(pair + k)) for k in keys})
     left = given.penetration if given.penetration >= 0.0 else 4e-3
-    for pair in augmented:
+    deep = [pair for pair in augmented if not given.is_shallow(pair)]
+    for pair in deep:
         tried = 0.25 * min(left, tolerances[pair])
         if tried >= LEAST_PENETRATION:
             changes[pair + "Penetration tolerance"] = parameters.shown(tried)
             changes["Solver/Maximum augmentations"] = 100
     if changes:
-        label = QUARTER if augmented else "four times the penalty"
+        label = QUARTER if deep else "four times the penalty"
         return Source("penetration", Variant(label, changes, changes), ratio=4.0, weight=3.0)
     if not augmented:
         return None
