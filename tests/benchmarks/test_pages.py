@@ -89,8 +89,8 @@ class Levels(unittest.TestCase):
         self.assertAlmostEqual(by_levels([0.03], [0.4, 0.01]), 0.01)  # no higher one
         self.assertAlmostEqual(by_levels([0.03], [0.01, 0.02]), 0.03)  # of order 1
         self.assertAlmostEqual(by_levels([0.03], [0.0, 0.0]), 0.03)
-        self.assertAlmostEqual(by_levels([0.12, 0.03], [1.0, 1.0, 1.0]), 0.01)
-        self.assertAlmostEqual(by_levels([0.6, 0.03], [1.0, 1.0, 1.0]), 0.01)
+        self.assertAlmostEqual(by_levels([0.12, 0.03], [1.0, 1.0, 1.0]), 0.0125)  # with safety
+        self.assertAlmostEqual(by_levels([0.6, 0.03], [1.0, 1.0, 1.0]), 0.0125)
         self.assertEqual(by_levels([0.04, 0.03], [1.0, 1.0, 1.0]), 0.04)  # below order 1/2
         self.assertEqual(by_levels([0.02, 0.03], [1.0, 1.0, 1.0]), 0.03)
         self.assertEqual(by_levels([0.02, 0.0], [1.0, 1.0, 1.0]), 0.0)
