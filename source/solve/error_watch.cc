@@ -126,8 +126,9 @@ ErrorWatch::EstimatedError ErrorWatch::estimated_error() const {
 }
 
 void ErrorWatch::allow_penetration() {
+  penetration_allowed_ = minimum(&ErrorControl::penetration_allowed);
   if (controls_penetration_)
-    problem_.set_penetration_allowed(minimum(&ErrorControl::penetration_allowed));
+    problem_.set_penetration_allowed(penetration_allowed_);
 }
 
 void ErrorWatch::demand_accuracy(const bool is_measured) {
@@ -251,6 +252,7 @@ void ErrorWatch::save(StateWriter &writer) const {
     });
   writer.write("iterations of measurements", {static_cast<double>(n_iterations_)});
   writer.write("comparison", {probe_length_, probe_end_, last_residual_, probe_.newton.force});
+  writer.write("penetration allowed", {penetration_allowed_});
 }
 
 void ErrorWatch::load(StateReader &reader) {
@@ -273,6 +275,11 @@ void ErrorWatch::load(StateReader &reader) {
   const std::vector<double> comparison = reader.read("comparison", 4);
   probe_length_ = is_whole ? comparison.at(0) : 0.;
   probe_end_ = comparison.at(1);
+  // Between two compared steps the penetration of the first is allowed, whatever the errors are.
+  if (controls_penetration_ && probe_length_ > 0. && reader.has("penetration allowed")) {
+    penetration_allowed_ = reader.read("penetration allowed", 1).at(0);
+    problem_.set_penetration_allowed(penetration_allowed_);
+  }
   last_residual_ = comparison.at(2);
   probe_.newton.force = comparison.at(3);
   demand_accuracy(probe_length_ > 0.);

@@ -114,6 +114,8 @@ RESUMED = {
     "block": Resumed(BLOCK, "set Step interval = 1"),
     "impact": Resumed(IMPACT, "set Interval = 0.1e-3", " & Output: Interval = 0.1e-3"),
     "aimed": Resumed(BLOCK, "set Step interval = 1", AIMED),
+    # What penetration is allowed does not change between two steps that are compared.
+    "aimed lower": Resumed(BLOCK, "set Step interval = 1", AIMED.replace("1 %", "3 %")),
     "drop": Resumed(
         DROP,
         "set Step interval = 1",
@@ -140,7 +142,7 @@ for which, what in RESUMED.items():
 
         checkpoints = checkpoints_of(folder)
         shutil.copytree(folder, f"{folder}.whole")
-        for number in (0, 2, len(checkpoints) - 2):
+        for number in (0, 1, 2, len(checkpoints) - 2):
 
             @check(f"{which} on {ranks} goes on from {number}, nothing differs")
             def _() -> None:

@@ -73,6 +73,7 @@ private:
 
   ImplicitSolution &problem_;
   std::vector<ErrorControl> controls_; ///< of forces first
+  double penetration_allowed_ = 0.;    ///< since the last step but the first of a comparison
   double residual_factor_;             ///< residual of a resultant force over that of nodal forces
   double end_time_;
   bool measures_steps_, measures_penetration_, controls_penetration_;
