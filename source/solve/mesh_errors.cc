@@ -15,6 +15,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace billet {
 
@@ -115,8 +116,7 @@ void MeshErrors::find_unseen(const Scene &scene) {
     const auto is_free = [&](const CellIterator &cell, const unsigned int f) {
       return cell->face(f)->at_boundary() &&
              std::none_of(constraints.begin(), constraints.end(), [&](const Constraint &constraint) {
-               return constraint.on_plane &&
-                      std::abs(cell->face(f)->center() * constraint.normal - constraint.offset) < tolerance;
+               return constraint.on_plane && constrains_face(constraint, cell->face(f), tolerance);
              });
     };
     // Whether a free face is across the neighbour at a face.

@@ -11,6 +11,7 @@ it would take.
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -32,6 +33,46 @@ from edits import edit
 
 BEAM = read_text(HERE / "cantilever.prm")
 FIT = read_text(HERE.parents[1] / "prm/press_fit.prm")
+# An elastic bar hits a floor.
+HITS = """subsection Bodies
+  subsection bar
+    subsection Mesh
+      set Primitive = subdivided_hyper_rectangle
+      set Arguments = 4, 4, 16 : 0, 0, 0.02 : 4, 4, 16.02 : true
+    end
+    set Symmetry planes = x = 0 ; y = 0
+    set Initial velocity = 0 ; 0 ; -20
+    subsection Material
+      set Young modulus = 1000
+      set Poisson ratio = 0.3
+      set Density = 1e-6
+    end
+  end
+end
+subsection Tools
+  subsection floor
+    subsection Surfaces
+      subsection face
+        set Shape = plane
+      end
+    end
+  end
+end
+subsection Contact pairs
+  subsection bar on floor
+    set Body = bar
+    set Boundary ids = 4
+    set Tool = floor
+  end
+end
+subsection Time stepping
+  set Scheme = explicit
+  set End time = 2e-3
+end
+subsection Output
+  set Format = none
+end
+"""
 runner = Runner(Program(sys.argv[1:]))
 check = Checks()
 enter_folder()
@@ -217,6 +258,15 @@ def _() -> None:
     exact = 0.1406 * 2e5 / 2.6 * 2**4 * 0.01 / 8  # of Saint-Venant
     off = abs(ran.last("bar.support head.moment_z") / exact - 1)
     require(off <= 0.1 and ran.ended.code == 0, f"{off} off, and the exit code is {ran.ended.code}")
+
+
+@check("levels of an explicit scene raise a penalty that they show to be too low")
+def _() -> None:
+    write_text("hits.prm", HITS + "set Target error = 4 percent\nset Target error of = everything\n")
+    ended = run(*Program(sys.argv[1:]).on(1, "--output", "hits", "hits.prm"))
+    equal("the exit code", ended.code, 0)
+    estimates = [float(e) for e in re.findall(r"penetrations ([0-9.e-]+) %", " ".join(ended.output.split()))]
+    require(len(estimates) > 1 and estimates[0] > 4.0 / 3 > estimates[-1], f"penetrations {estimates}")
 
 
 @check("an error that shows on the mesh is told once, before there is a folder")

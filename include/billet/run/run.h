@@ -2,7 +2,6 @@
 #ifndef BILLET_RUN_RUN_H
 #define BILLET_RUN_RUN_H
 
-#include "billet/discretization/supports.h"
 #include "billet/output/probe_reader.h"
 #include "billet/run/resumption.h"
 #include "billet/run/run_output.h"

@@ -10,7 +10,6 @@
 #include "billet/solve/stick_softness.h"
 #include "billet/state.h"
 
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
