@@ -23,7 +23,7 @@ namespace billet {
 namespace {
 
 /// Limits of linear solutions, beside IterativeSolver::Settings.
-struct Limits {
+struct IterativeSolverLimits {
   /// Iterations beyond those that the pace of a kept preconditioner lets expect.
   static constexpr double spare_iterations = 10.;
   /// Maximum number of starts from the true residual, and the part of it that each has to go below.
@@ -363,8 +363,8 @@ bool IterativeSolver::solve(const Vector &b, Vector &x, const double relative_to
   if (!is_lagging_)
     return iterate(b, x, relative_tolerance, settings_.max_iterations);
   const double expected = -std::log(relative_tolerance) / (settings_.min_pace * fresh_pace_);
-  const double maximum =
-      std::min(expected + Limits::spare_iterations, static_cast<double>(settings_.max_iterations));
+  const double maximum = std::min(expected + IterativeSolverLimits::spare_iterations,
+                                  static_cast<double>(settings_.max_iterations));
   return iterate(b, x, relative_tolerance, static_cast<unsigned int>(maximum)) ||
          (renew() && iterate(b, x, relative_tolerance, settings_.max_iterations));
 }
@@ -393,7 +393,8 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
   // there.
   unsigned int left = max_iterations;
   for (unsigned int attempt = 0;
-       relative_residual_ > relative_tolerance && attempt < Limits::max_attempts && left > 0; ++attempt) {
+       relative_residual_ > relative_tolerance && attempt < IterativeSolverLimits::max_attempts && left > 0;
+       ++attempt) {
     const double before = relative_residual_;
     // Aztec takes non-const pointers, but changes neither the matrix nor the right-hand side.
     AztecOO solver(const_cast<Epetra_CrsMatrix *>(&A), &x, // NOLINT(cppcoreguidelines-pro-type-const-cast)
@@ -403,12 +404,12 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
     solver.SetPrecOperator(multigrid_.get());
     solver.SetAztecOption(AZ_conv, AZ_rhs);
     solver.SetAztecOption(AZ_solver, aztec_solver(settings_.method));
-    solver.SetAztecOption(AZ_kspace, static_cast<int>(std::min(left, Limits::max_directions)));
-    solver.Iterate(static_cast<int>(left), Limits::of_recursive * relative_tolerance);
+    solver.SetAztecOption(AZ_kspace, static_cast<int>(std::min(left, IterativeSolverLimits::max_directions)));
+    solver.Iterate(static_cast<int>(left), IterativeSolverLimits::of_recursive * relative_tolerance);
     iterations_ += static_cast<unsigned int>(solver.NumIters());
     left -= std::min(left, static_cast<unsigned int>(solver.NumIters()));
     compute_residual();
-    if (!(relative_residual_ < Limits::progress * before))
+    if (!(relative_residual_ < IterativeSolverLimits::progress * before))
       break;
   }
   if (relative_residual_ <= relative_tolerance) {

@@ -27,7 +27,7 @@ using Teuchos::rcp;
 using ReturnType = NOX::Abstract::Group::ReturnType;
 
 /// Limits of linear solutions and of the line search.
-struct Limits {
+struct NonlinearSolverLimits {
   /// Tightest linear solution, as part of the residual that ends the iterations, and the loosest
   /// one, as part of the present residual.
   static constexpr double linear_part = 0.5, max_linear_tolerance = 0.1;
@@ -135,9 +135,10 @@ public:
       // The tolerance need not be tighter than the one that ends the iterations (Kelley, Iterative
       // Methods for Linear and Nonlinear Equations, 1995, eq. 6.20).
       const double enough =
-          f_->norm() > 0. ? Limits::linear_part * residual_tolerance_ * scale_ / f_->norm() : 0.;
-      const double tolerance =
-          std::min(Limits::max_linear_tolerance, std::max(options.get("Tolerance", 0.), enough));
+          f_->norm() > 0. ? NonlinearSolverLimits::linear_part * residual_tolerance_ * scale_ / f_->norm()
+                          : 0.;
+      const double tolerance = std::min(NonlinearSolverLimits::max_linear_tolerance,
+                                        std::max(options.get("Tolerance", 0.), enough));
       has_newton_ =
           has_f_ && has_tangent_ && system_->solve_tangent(f_->values(), newton_->values(), tolerance);
       newton_->scale(-1.);
@@ -198,8 +199,8 @@ public:
     if (!(step > 0.))
       return false;
     if (!evaluate(group, step, direction, old)) {
-      for (unsigned int cut = 0; cut < Limits::max_cuts; ++cut) {
-        step *= Limits::cut;
+      for (unsigned int cut = 0; cut < NonlinearSolverLimits::max_cuts; ++cut) {
+        step *= NonlinearSolverLimits::cut;
         if (evaluate(group, step, direction, old))
           return true;
       }
@@ -212,18 +213,18 @@ public:
     const double start = dot(direction, old.getF());
     double end = dot(direction, group.getF());
     const bool stagnates = is_stagnating(old.getNormF());
-    const double enough = stagnates ? Limits::enough_of_cycles : Limits::enough;
+    const double enough = stagnates ? NonlinearSolverLimits::enough_of_cycles : NonlinearSolverLimits::enough;
     if (!(std::abs(end) > (stagnates ? enough : 1.) * std::abs(start)) || start == 0.)
       return true;
     double best_step = step, best = std::abs(end);
     double low = 0., low_value = start, high = step, high_value = end;
-    for (unsigned int trial = 0; trial < Limits::max_trials && std::abs(end) > enough * std::abs(start);
-         ++trial) {
+    for (unsigned int trial = 0;
+         trial < NonlinearSolverLimits::max_trials && std::abs(end) > enough * std::abs(start); ++trial) {
       const bool brackets = low_value * high_value < 0.;
       step = brackets ? low - low_value * (high - low) / (high_value - low_value)
-                      : Limits::without_bracket * high;
-      step =
-          std::clamp(step, low + Limits::from_ends * (high - low), high - Limits::from_ends * (high - low));
+                      : NonlinearSolverLimits::without_bracket * high;
+      step = std::clamp(step, low + NonlinearSolverLimits::from_ends * (high - low),
+                        high - NonlinearSolverLimits::from_ends * (high - low));
       if (!evaluate(group, step, direction, old))
         break;
       end = dot(direction, group.getF());
@@ -257,10 +258,10 @@ private:
   /// each correction undoes the last one, with as much work.
   bool is_stagnating(const double norm) {
     norms_.push_back(norm);
-    if (norms_.size() <= Limits::window)
+    if (norms_.size() <= NonlinearSolverLimits::window)
       return false;
     norms_.erase(norms_.begin());
-    return norms_.back() > Limits::stagnation * norms_.front();
+    return norms_.back() > NonlinearSolverLimits::stagnation * norms_.front();
   }
 
   bool by_energy_;

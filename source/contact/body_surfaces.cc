@@ -13,7 +13,7 @@ namespace billet {
 
 namespace {
 
-struct Limits {
+struct BodySurfacesLimits {
   /// Reach of the search over the largest gap that counts as closed, so that gaps at this limit are
   /// found.
   static constexpr double beyond_gap = 1.1;
@@ -49,10 +49,12 @@ BodySurfaces::BodySurfaces(const BodyPair &pair, const LocalNodes &nodes, const 
       facet.surface = surface;
       facet.key = make_key(boundary, node_keys);
       areas.push_back(boundary.area_vector().norm());
-      facet.reach = std::max(contact_reach(boundary), Limits::beyond_gap * pair.overlap.closed_gap);
+      facet.reach =
+          std::max(contact_reach(boundary), BodySurfacesLimits::beyond_gap * pair.overlap.closed_gap);
       facet.bulge = bulge_of(boundary, pair.correction);
       facet.wall = boundary.thickness;
-      penetrations.push_back(Limits::part_of_facet * std::min(std::sqrt(areas.back()), boundary.thickness));
+      penetrations.push_back(BodySurfacesLimits::part_of_facet *
+                             std::min(std::sqrt(areas.back()), boundary.thickness));
       for (unsigned int a = 0; a < 4; ++a) {
         const auto [entry, is_new] =
             index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(local_nodes.size()));

@@ -20,7 +20,7 @@ using dealii::Tensor;
 
 namespace {
 
-struct Limits {
+struct FacetedCurvatureLimits {
   /// Chord gap, and error of the surface correction, over the largest displacement, above which a
   /// run warns: about the error of an engineering result. A motion much larger than the gap closes
   /// it in any case.
@@ -261,7 +261,7 @@ DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &
 
 DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &discretization,
                                       const Vector &displacements, const double time) {
-  const double notable = Limits::notable * displacements.linfty_norm();
+  const double notable = FacetedCurvatureLimits::notable * displacements.linfty_norm();
   DiagnosticList diagnostics;
   for (const auto &pair : scene.body_pairs()) {
     if (pair.correction.kind != Correction::Kind::none) {

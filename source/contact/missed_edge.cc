@@ -11,7 +11,7 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr std::size_t row_width = 4; // of a node that may be behind a tool
+constexpr std::size_t missed_row_width = 4; // of a node that may be behind a tool
 
 } // namespace
 
@@ -47,14 +47,14 @@ void MissedEdge::save(StateWriter &writer, const std::vector<ContactPoint> &node
   RowWriter row(rows);
   for (std::size_t i = range.begin; i < range.end; ++i)
     row.number(nodes[i].is_behind ? 1. : 0.).vector(nodes[i].behind_at);
-  range.write(writer, "behind", row_width, rows);
+  range.write(writer, "behind", missed_row_width, rows);
 }
 
 void MissedEdge::load(const StateReader &reader, std::vector<ContactPoint> &nodes,
                       const SlaveSurface::Range &range) {
   if (!reader.has(range.prefix + "behind"))
     return;
-  range.read(reader, "behind", row_width, [&](const std::size_t i, RowReader &row) {
+  range.read(reader, "behind", missed_row_width, [&](const std::size_t i, RowReader &row) {
     nodes[i].is_behind = row.flag();
     row.vector(nodes[i].behind_at);
   });

@@ -10,7 +10,7 @@ using dealii::Tensor;
 
 namespace {
 
-struct Limits {
+struct NeighbouringToolsLimits {
   /// Minimum cosine between the direction that a tool must face and its normal: 60 degrees. A flank
   /// of a tool counts, its back does not.
   static constexpr double alike = 0.5;
@@ -25,7 +25,8 @@ bool NeighbouringTools::is_near(const Tensor<1, 3> &position, const double near,
       return false;
     const auto projection = other->surface.project(other->placement.to_tool(position));
     return projection.exists && std::abs(projection.gap) < near &&
-           (!facing || *facing * (other->placement.rotation * projection.normal) > Limits::alike);
+           (!facing ||
+            *facing * (other->placement.rotation * projection.normal) > NeighbouringToolsLimits::alike);
   });
 }
 

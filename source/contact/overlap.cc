@@ -26,7 +26,7 @@ using dealii::Tensor;
 
 namespace {
 
-struct Limits {
+struct OverlapLimits {
   /// Overlap over the chords of both faces, up to which faces that fit each other start. Heights of
   /// chords neglect higher powers of the facet size over the radius.
   static constexpr double beyond_chords = 1.01;
@@ -406,8 +406,8 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
   const bool is_by_overlaps = bodies.facets == FacetMethod::overlap;
   const double found = min_reach * (is_by_overlaps ? 0.5 * FacetOverlaps::penetration : 1.);
   const bool is_sphere = bodies.correction.kind == parameters::ContactPair::Correction::Kind::sphere;
-  const double of_edges =
-      Limits::beyond_chords * (is_sphere ? Limits::chords_of_sphere : Limits::chords_of_cylinder);
+  const double of_edges = OverlapLimits::beyond_chords *
+                          (is_sphere ? OverlapLimits::chords_of_sphere : OverlapLimits::chords_of_cylinder);
   const double allowed = bodies.overlap.is_allowed ? found
                                                    : bodies.input->initial.allowed_penetration.value * size +
                                                          of_edges * (chords[0] + chords[1]);

@@ -7,7 +7,7 @@ namespace billet {
 
 namespace {
 
-constexpr std::size_t row_width = 8; // of a node
+constexpr std::size_t pressure_row_width = 8; // of a node
 
 } // namespace
 
@@ -38,13 +38,13 @@ void PressureRecord::save(StateWriter &writer, const SlaveSurface::Range &range)
         .number(entries_[i].penetration)
         .vector(entries_[i].normal)
         .vector(entries_[i].position);
-  range.write(writer, "pressed", row_width, rows);
+  range.write(writer, "pressed", pressure_row_width, rows);
 }
 
 void PressureRecord::load(const StateReader &reader, const SlaveSurface::Range &range) {
   if (!is_known_)
     return;
-  range.read(reader, "pressed", row_width, [&](const std::size_t i, RowReader &row) {
+  range.read(reader, "pressed", pressure_row_width, [&](const std::size_t i, RowReader &row) {
     entries_[i].pressure = row.number();
     entries_[i].penetration = row.number();
     row.vector(entries_[i].normal);

@@ -7,7 +7,7 @@ namespace billet {
 
 namespace {
 
-struct Limits {
+struct ThinToolLimits {
   /// Thickness below which a tool is watched [facet sizes]: exceeds the travel of a node in a step,
   /// and its penetration.
   static constexpr double far = 2.;
@@ -32,14 +32,14 @@ std::optional<ThinToolWatch> ThinToolWatch::make(const RigidSurface &surface, co
   for (unsigned int i = 1; i < 3; ++i)
     thickness = std::min(thickness, box.high[i] - box.low[i]);
   const double size = (box.high - box.low).norm();
-  if (!(thickness > Limits::flat * size && thickness < Limits::far * max_facet_size))
+  if (!(thickness > ThinToolLimits::flat * size && thickness < ThinToolLimits::far * max_facet_size))
     return {};
   return ThinToolWatch(surface, thickness);
 }
 
 bool ThinToolWatch::passes(const std::size_t i, const Node &node) const {
-  const double deep = Limits::deep * thickness_, fine = Limits::fine * thickness_;
-  if (node.penetration > Limits::middle * thickness_)
+  const double deep = ThinToolLimits::deep * thickness_, fine = ThinToolLimits::fine * thickness_;
+  if (node.penetration > ThinToolLimits::middle * thickness_)
     return true;
   const dealii::Tensor<1, 3> &from = positions_n_[i], &to = node.position;
   const dealii::Tensor<1, 3> way = to - from;
@@ -52,7 +52,8 @@ bool ThinToolWatch::passes(const std::size_t i, const Node &node) const {
     // The node passes from one side to the other or, deep inside, from the end of the tool to a
     // side: an edge cuts in.
     const double turned = start.exists && end.exists ? start.normal * end.normal : 1.;
-    return turned < -Limits::square || (turned < Limits::turned && std::max(start.gap, end.gap) < -deep);
+    return turned < -ThinToolLimits::square ||
+           (turned < ThinToolLimits::turned && std::max(start.gap, end.gap) < -deep);
   }
   // From outside to outside: each increment is a distance in which the node cannot meet the tool.
   for (double done = std::max(start.gap, fine); done < length;) {

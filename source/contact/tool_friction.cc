@@ -9,7 +9,7 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr std::size_t row_width = FrictionHistory::width + 3; // of a node
+constexpr std::size_t friction_row_width = FrictionHistory::width + 3; // of a node
 
 } // namespace
 
@@ -152,13 +152,13 @@ void ToolFriction::save(StateWriter &writer, const SlaveSurface::Range &range) c
     n_[i].save(row);
     row.vector(n_[i].tool_position);
   }
-  range.write(writer, "friction", row_width, rows);
+  range.write(writer, "friction", friction_row_width, rows);
 }
 
 void ToolFriction::load(const StateReader &reader, const SlaveSurface::Range &range) {
   if (!reader.has(range.prefix + "friction")) // a new friction law begins without traction
     return;
-  range.read(reader, "friction", row_width, [&](const std::size_t i, RowReader &row) {
+  range.read(reader, "friction", friction_row_width, [&](const std::size_t i, RowReader &row) {
     now_[i].load(row);
     row.vector(now_[i].tool_position);
   });

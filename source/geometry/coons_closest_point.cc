@@ -10,12 +10,12 @@
 namespace billet {
 
 using dealii::Tensor;
-using Point = CoonsPatch::Point;
+using CoonsPoint = CoonsPatch::Point;
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double round_off = std::numeric_limits<double>::epsilon();
+constexpr double relative_round_off = std::numeric_limits<double>::epsilon();
 // Tolerances for "nearer" and for "directly above", relative to the distance and to the patch's
 // size.
 constexpr double not_nearer = 1e-13, straight_above = 1e-10;
@@ -95,7 +95,7 @@ struct CoonsPatch::Block {
 /// Whether the cell may contain a point nearer to x than `distance`. It uses the hull of the cell's
 /// corners plus the slack, projected on `arm`. This is the vector from the cell's middle to x,
 /// whose square is given.
-bool CoonsPatch::may_be_nearer(const std::size_t cell, const Point &arm, const double square,
+bool CoonsPatch::may_be_nearer(const std::size_t cell, const CoonsPoint &arm, const double square,
                                const double distance) const {
   double towards = -infinity;
   for (const auto &corner : cells_[cell].arms)
@@ -111,7 +111,7 @@ bool CoonsPatch::may_be_nearer(const std::size_t cell, const Point &arm, const d
 /// Here 2B = X_αβ δ^α δ^β somewhere in the block, bounded by `bend`. d·X_αβ is its value at the
 /// foot plus a change bounded by third derivatives. All quantities use lengths a, b instead of u,
 /// v.
-bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block) const {
+bool CoonsPatch::is_nearest(const Foot &foot, const CoonsPoint &x, const Block &block) const {
   const Range &low = cells_[block.low_i * n_v_ + block.low_j].range,
               &high = cells_[block.high_i * n_v_ + block.high_j].range;
   const double a = length_u_ * std::max(foot.u - low.low_u, high.high_u - foot.u),
@@ -127,11 +127,11 @@ bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block
       change_v = std::max(change_v, a * cell.uvv + b * cell.vvv + change_uv);
     }
   const double scale_u = 1. / length_u_, scale_v = 1. / length_v_;
-  const Point u = scale_u * foot.jet.u, v = scale_v * foot.jet.v;
+  const CoonsPoint u = scale_u * foot.jet.u, v = scale_v * foot.jet.v;
   const double stretch = std::sqrt(std::max(0., Quadratic{0., 0., u * u, u * v, v * v}.min_eigenvalue()));
   const double left =
       std::max(0., stretch - 0.5 * std::sqrt(bend_u * bend_u * a * a + bend_v * bend_v * b * b));
-  const Point d = x - foot.jet.position;
+  const CoonsPoint d = x - foot.jet.position;
   const double distance = std::sqrt(foot.square);
   const Quadratic towards{0., 0., scale_u * scale_u * (d * foot.jet.uu) + distance * change_u,
                           scale_u * scale_v * (d * foot.jet.uv),
@@ -144,10 +144,10 @@ bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block
 /// (Bittencourt & Creus 1998, eqs. (10), (11)). The step leads to the minimum, within the range, of
 /// the second-order model of |X − x|²/2. The model is made convex if necessary, and has Marquardt's
 /// damping.
-CoonsPatch::Step CoonsPatch::newton_step(const Point &x, const Foot &foot, const Range &range,
+CoonsPatch::Step CoonsPatch::newton_step(const CoonsPoint &x, const Foot &foot, const Range &range,
                                          const double damping) const {
   const Jet &jet = foot.jet;
-  const Point r = jet.position - x;
+  const CoonsPoint r = jet.position - x;
   Quadratic model{r * jet.u / length_u_, r * jet.v / length_v_,
                   (jet.u * jet.u + r * jet.uu) / (length_u_ * length_u_),
                   (jet.u * jet.v + r * jet.uv) / (length_u_ * length_v_),
@@ -177,12 +177,12 @@ CoonsPatch::Step CoonsPatch::newton_step(const Point &x, const Foot &foot, const
 }
 
 /// Descends by Newton's method from `foot` to a minimum of the distance in the range.
-CoonsPatch::Foot CoonsPatch::newton(const Point &x, Foot foot, const Range &range) const {
+CoonsPatch::Foot CoonsPatch::newton(const CoonsPoint &x, Foot foot, const Range &range) const {
   double damping = 0., last_length = infinity;
   for (unsigned int iteration = 0; iteration < 100; ++iteration) {
     const Step step = newton_step(x, foot, range, damping);
     const double length = std::max(std::abs(step.u), std::abs(step.v));
-    if (length <= round_off * size_)
+    if (length <= relative_round_off * size_)
       return foot;
 
     Foot next{moved(foot.u, step.u / length_u_, range.low_u, range.high_u),
@@ -192,7 +192,7 @@ CoonsPatch::Foot CoonsPatch::newton(const Point &x, Foot foot, const Range &rang
     next.jet = at(next.u, next.v);
     next.square = (next.jet.position - x).norm_square();
     const double distance = std::sqrt(foot.square);
-    const double noise = 16. * round_off * distance * (distance + foot.jet.position.norm() + size_);
+    const double noise = 16. * relative_round_off * distance * (distance + foot.jet.position.norm() + size_);
     if (!(next.square <= foot.square + noise)) {
       damping = std::max(8. * damping, 0.1);
       continue;
@@ -209,7 +209,7 @@ CoonsPatch::Foot CoonsPatch::newton(const Point &x, Foot foot, const Range &rang
 
 /// Moves `foot` off a side that is a point, nearer to x, if possible. The parameter along such a
 /// side does not move the point, but selects the direction in which the patch continues.
-bool CoonsPatch::leave_pole(const Point &x, const Range &range, Foot &foot) const {
+bool CoonsPatch::leave_pole(const CoonsPoint &x, const Range &range, Foot &foot) const {
   const bool at_low_v = foot.v == 0. && is_pole_[0], at_high_u = foot.u == 1. && is_pole_[1],
              at_high_v = foot.v == 1. && is_pole_[2], at_low_u = foot.u == 0. && is_pole_[3];
   if (!(at_low_v || at_high_u || at_high_v || at_low_u))
@@ -217,7 +217,7 @@ bool CoonsPatch::leave_pole(const Point &x, const Range &range, Foot &foot) cons
   const bool along_v = at_low_u || at_high_u;
   const double inwards = at_low_u || at_low_v ? 1. : -1.;
   const double low = along_v ? range.low_v : range.low_u, high = along_v ? range.high_v : range.high_u;
-  const Point r = foot.jet.position - x;
+  const CoonsPoint r = foot.jet.position - x;
   const auto at_pole = [&](const double t) { return along_v ? at(foot.u, t) : at(t, foot.v); };
   const auto slope = [&](const Jet &jet) { return inwards * (r * (along_v ? jet.u : jet.v)); };
 
@@ -242,12 +242,12 @@ bool CoonsPatch::leave_pole(const Point &x, const Range &range, Foot &foot) cons
   const double t = 0.5 * (before + after);
   const Jet jet = at_pole(t);
   const double down = -slope(jet);
-  if (!(down > round_off * (r.norm() + size_) * (along_v ? length_u_ : length_v_)))
+  if (!(down > relative_round_off * (r.norm() + size_) * (along_v ? length_u_ : length_v_)))
     return false;
 
   const double bend = along_v ? jet.u * jet.u + r * jet.uu : jet.v * jet.v + r * jet.vv;
   const double room = along_v ? range.high_u - range.low_u : range.high_v - range.low_v;
-  for (double depth = bend * room > down ? down / bend : room; depth > round_off; depth *= 0.5) {
+  for (double depth = bend * room > down ? down / bend : room; depth > relative_round_off; depth *= 0.5) {
     Foot next = foot;
     (along_v ? next.v : next.u) = t;
     (along_v ? next.u : next.v) += inwards * depth;
@@ -262,14 +262,14 @@ bool CoonsPatch::leave_pole(const Point &x, const Range &range, Foot &foot) cons
 }
 
 /// Descends from `foot` to a minimum of the distance in the range of a cell.
-CoonsPatch::Foot CoonsPatch::descend(const Point &x, Foot foot, const Range &range) const {
+CoonsPatch::Foot CoonsPatch::descend(const CoonsPoint &x, Foot foot, const Range &range) const {
   foot = newton(x, foot, range);
   for (unsigned int i = 0; i < 10 && leave_pole(x, range, foot); ++i)
     foot = newton(x, foot, range);
   return foot;
 }
 
-CoonsPatch::Foot CoonsPatch::foot(const Point &x) const {
+CoonsPatch::Foot CoonsPatch::foot(const CoonsPoint &x) const {
   const Range whole{0., 1., 0., 1.};
   const auto start = [&](const std::size_t cell, const double square) {
     const Range &range = cells_[cell].range;
@@ -319,14 +319,14 @@ CoonsPatch::Foot CoonsPatch::foot(const Point &x) const {
 
 /// Returns W (I + gap W)⁻¹ with the shape operator W = ∂n/∂X on the tangent plane. From the second
 /// fundamental form b_αβ = n·X_αβ and X_α = e_k J_kα with orthonormal e_k, W = −J⁻ᵀ b J⁻¹.
-Tensor<2, 3> CoonsPatch::turning(const Foot &foot, const Point &normal, const double gap) const {
+Tensor<2, 3> CoonsPatch::turning(const Foot &foot, const CoonsPoint &normal, const double gap) const {
   Jet jet = foot.jet;
   // Where the parameters degenerate, W is taken at a point slightly inside.
   if (dealii::cross_product_3d(jet.u, jet.v).norm() < 1e-4 * length_u_ * length_v_)
     jet = at(foot.u + 2e-4 * (0.5 - foot.u), foot.v + 2e-4 * (0.5 - foot.v));
-  Point e = jet.u - (jet.u * normal) * normal;
+  CoonsPoint e = jet.u - (jet.u * normal) * normal;
   e /= e.norm();
-  const Point f = dealii::cross_product_3d(normal, e);
+  const CoonsPoint f = dealii::cross_product_3d(normal, e);
   const double ue = jet.u * e, ve = jet.v * e, vf = jet.v * f;
   // J⁻¹ = (1/ue, −ve/(ue vf); 0, 1/vf)
   const double a = 1. / ue, b = -ve / (ue * vf), c = 1. / vf;
@@ -347,17 +347,17 @@ Tensor<2, 3> CoonsPatch::turning(const Foot &foot, const Point &normal, const do
          ratio * w_ef * (dealii::outer_product(e, f) + dealii::outer_product(f, e));
 }
 
-ClosestPoint CoonsPatch::closest_point(const Point &x) const {
+ClosestPoint CoonsPatch::closest_point(const CoonsPoint &x) const {
   const Foot nearest = foot(x);
   ClosestPoint result;
   result.position = nearest.jet.position;
   result.normal = normal(nearest.jet, nearest.u, nearest.v);
-  const Point arm = x - result.position;
+  const CoonsPoint arm = x - result.position;
   result.gap = arm * result.normal;
   result.turning = turning(nearest, result.normal, result.gap);
   const bool is_on_edge = nearest.u == 0. || nearest.u == 1. || nearest.v == 0. || nearest.v == 1.;
   result.is_beyond_edge = is_on_edge && (arm - result.gap * result.normal).norm() >
-                                            straight_above * size_ + 10. * round_off * arm.norm();
+                                            straight_above * size_ + 10. * relative_round_off * arm.norm();
   return result;
 }
 

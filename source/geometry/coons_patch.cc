@@ -11,20 +11,20 @@
 
 namespace billet {
 
-using Point = CoonsPatch::Point;
-using Kind = CurveSketch::Kind;
+using CoonsPoint = CoonsPatch::Point;
+using CurveKind = CurveSketch::Kind;
 
 namespace {
 
 // Maximum distance of curves that meet, relative to the patch's size.
-constexpr double meeting = 1e-8;
+constexpr double meeting_ends = 1e-8;
 // Maximum change of direction in a cell [radians], such that Newton's method from its middle is
 // safe and its box is tight.
 constexpr double cell_angle = 0.2;
 constexpr unsigned int facets_per_cell =
     2; // along a side, for output and for the search for folds and intersections
 
-double size_of(const std::array<CurveSketch, 4> &round) {
+double sketch_size(const std::array<CurveSketch, 4> &round) {
   double size = 0.;
   for (const auto &curve : round)
     for (const auto &point : curve.points)
@@ -36,16 +36,16 @@ double size_of(const std::array<CurveSketch, 4> &round) {
 std::array<CurveSketch, 4> joined(std::array<CurveSketch, 4> round, const double size) {
   for (unsigned int i = 0; i < 4; ++i) {
     const unsigned int j = (i + 1) % 4;
-    const Point &end = round[i].points.back();
-    Point &start = round[j].points.front();
+    const CoonsPoint &end = round[i].points.back();
+    CoonsPoint &start = round[j].points.front();
     const double apart = (end - start).norm();
-    if (apart > meeting * size) {
+    if (apart > meeting_ends * size) {
       std::ostringstream reason;
       reason << "curve " << i + 1 << " ends at " << print(end) << ", but curve " << j + 1 << " begins at "
              << print(start) << ", " << apart << " from there";
       throw std::invalid_argument(reason.str());
     }
-    if (round[i].kind == Kind::point && round[j].kind == Kind::point)
+    if (round[i].kind == CurveKind::point && round[j].kind == CurveKind::point)
       throw std::invalid_argument("curves " + std::to_string(std::min(i, j) + 1) + " and " +
                                   std::to_string(std::max(i, j) + 1) +
                                   ", which are neighbours, are both points");
@@ -63,17 +63,17 @@ Curve make_curve(const CurveSketch &sketch, const unsigned int number) {
   }
 }
 
-Point maximum(const Point &a, const Point &b) {
-  return Point({std::max(a[0], b[0]), std::max(a[1], b[1]), std::max(a[2], b[2])});
+CoonsPoint maximum(const CoonsPoint &a, const CoonsPoint &b) {
+  return CoonsPoint({std::max(a[0], b[0]), std::max(a[1], b[1]), std::max(a[2], b[2])});
 }
 
 } // namespace
 
-CoonsPatch::CoonsPatch(const std::array<CurveSketch, 4> &round) : size_(size_of(round)) {
+CoonsPatch::CoonsPatch(const std::array<CurveSketch, 4> &round) : size_(sketch_size(round)) {
   const std::array<CurveSketch, 4> sketches = joined(round, size_);
   for (unsigned int i = 0; i < 4; ++i) {
     curves_.push_back(make_curve(i < 2 ? sketches[i] : sketches[i].reversed(), i + 1));
-    is_pole_[i] = sketches[i].kind == Kind::point;
+    is_pole_[i] = sketches[i].kind == CurveKind::point;
     corners_[i] = sketches[i].points.front();
   }
   measure();
@@ -85,8 +85,8 @@ CoonsPatch::CoonsPatch(const std::array<CurveSketch, 4> &round) : size_(size_of(
 CoonsPatch::Jet CoonsPatch::at(const double u, const double v) const {
   const Curve::Jet c0 = curves_[0].at(u), d1 = curves_[1].at(v), c1 = curves_[2].at(u), d0 = curves_[3].at(v);
   const double U = 1. - u, V = 1. - v;
-  const Point low = U * corners_[0] + u * corners_[1], high = U * corners_[3] + u * corners_[2];
-  const Point along_low = corners_[1] - corners_[0], along_high = corners_[2] - corners_[3];
+  const CoonsPoint low = U * corners_[0] + u * corners_[1], high = U * corners_[3] + u * corners_[2];
+  const CoonsPoint along_low = corners_[1] - corners_[0], along_high = corners_[2] - corners_[3];
   return {V * (c0.position - low) + v * (c1.position - high) + U * d0.position + u * d1.position,
           V * (c0.first - along_low) + v * (c1.first - along_high) + (d1.position - d0.position),
           (c1.position - high) - (c0.position - low) + U * d0.first + u * d1.first,
@@ -95,9 +95,9 @@ CoonsPatch::Jet CoonsPatch::at(const double u, const double v) const {
           U * d0.second + u * d1.second};
 }
 
-Point CoonsPatch::normal(const Jet &jet, const double u, const double v) const {
+CoonsPoint CoonsPatch::normal(const Jet &jet, const double u, const double v) const {
   const double nothing = 1e-8 * length_u_ * length_v_;
-  Point normal = dealii::cross_product_3d(jet.u, jet.v);
+  CoonsPoint normal = dealii::cross_product_3d(jet.u, jet.v);
   double length = normal.norm();
   if (length < nothing) {
     // First order: (X_u × X_v)_u and (X_u × X_v)_v times the distance to the middle.
@@ -105,7 +105,7 @@ Point CoonsPatch::normal(const Jet &jet, const double u, const double v) const {
              (0.5 - v) * (dealii::cross_product_3d(jet.uv, jet.v) + dealii::cross_product_3d(jet.u, jet.vv));
     length = normal.norm();
   }
-  return length < nothing ? Point() : normal / length;
+  return length < nothing ? CoonsPoint() : normal / length;
 }
 
 /// Computes the lengths and, from them, the number of cells.
@@ -120,7 +120,7 @@ void CoonsPatch::measure() {
       twist = std::max(twist, jet.uv.norm());
       area = std::max(area, dealii::cross_product_3d(jet.u, jet.v).norm());
     }
-  if (!(area > meeting * size_ * size_))
+  if (!(area > meeting_ends * size_ * size_))
     throw std::invalid_argument("the patch has no area");
   length_u_ = std::sqrt(square_u);
   length_v_ = std::sqrt(square_v);
@@ -163,8 +163,8 @@ CoonsPatch::Cell CoonsPatch::make_cell(const unsigned int i, const unsigned int 
       at(low_u, low_v).position - cell.middle.position, at(high_u, low_v).position - cell.middle.position,
       at(high_u, high_v).position - cell.middle.position, at(low_u, high_v).position - cell.middle.position};
   // X_uu and X_vv are means of the curves' second derivatives.
-  const Point uu = maximum(curves_[0].max_second(low_u, high_u), curves_[2].max_second(low_u, high_u)),
-              vv = maximum(curves_[1].max_second(low_v, high_v), curves_[3].max_second(low_v, high_v));
+  const CoonsPoint uu = maximum(curves_[0].max_second(low_u, high_u), curves_[2].max_second(low_u, high_u)),
+                   vv = maximum(curves_[1].max_second(low_v, high_v), curves_[3].max_second(low_v, high_v));
   cell.slack = h_u * h_u / 8. * uu + h_v * h_v / 8. * vv;
   // X_uuv = c_1'' − c_0'' and X_uvv = d_1'' − d_0'' change with the curves' third derivatives.
   const auto third = [](const Curve &a, const Curve &b, const double from, const double to) {
@@ -188,7 +188,7 @@ CoonsPatch::Cell CoonsPatch::make_cell(const unsigned int i, const unsigned int 
 
 void CoonsPatch::refuse_folds() const {
   const unsigned int n_u = facets_per_cell * n_u_, n_v = facets_per_cell * n_v_;
-  std::vector<Point> row_before, row;
+  std::vector<CoonsPoint> row_before, row;
   for (unsigned int i = 0; i <= n_u; ++i) {
     row.clear();
     for (unsigned int j = 0; j <= n_v; ++j) {
@@ -212,7 +212,7 @@ void CoonsPatch::refuse_crossings() const {
     const double t = i / static_cast<double>(n);
     return t + 0.1 * t * (1. - t);
   };
-  std::vector<Point> points;
+  std::vector<CoonsPoint> points;
   std::vector<std::array<unsigned int, 3>> triangles;
   for (unsigned int i = 0; i <= n_u; ++i)
     for (unsigned int j = 0; j <= n_v; ++j)
@@ -246,7 +246,7 @@ void CoonsPatch::draw(const OutputRegion &, SurfaceMesh &surface_mesh) const {
       std::vector<unsigned int> facet;
       for (const unsigned int next : {corner, corner + n_v + 1, corner + n_v + 2, corner + 1}) {
         const auto coincides = [&](const unsigned int other) {
-          return (surface_mesh.points[other] - surface_mesh.points[next]).norm() <= meeting * size_;
+          return (surface_mesh.points[other] - surface_mesh.points[next]).norm() <= meeting_ends * size_;
         };
         if (std::none_of(facet.begin(), facet.end(), coincides))
           facet.push_back(next);

@@ -9,15 +9,15 @@
 namespace billet {
 
 using dealii::Tensor;
-using Kind = CurveSketch::Kind;
-using Point = Curve::Point;
+using CurveKind = CurveSketch::Kind;
+using SpacePoint = Curve::Point;
 
 namespace {
 
 constexpr double in_line = 1e-9; // maximum sine of the angle between collinear directions
 
 /// Reads exactly three numbers; returns false otherwise.
-bool read_point(const std::string &text, Point &point) {
+bool read_space_point(const std::string &text, SpacePoint &point) {
   std::istringstream stream(text);
   char first_comma = 0, second_comma = 0;
   std::string rest;
@@ -26,7 +26,7 @@ bool read_point(const std::string &text, Point &point) {
 }
 
 /// Reads points with 'via' and 'to' between them; returns false for anything else.
-bool read_points(const std::string &text, std::vector<Point> &points, std::vector<std::string> &links) {
+bool read_points(const std::string &text, std::vector<SpacePoint> &points, std::vector<std::string> &links) {
   std::istringstream words(text + " to");
   std::string word, part;
   while (words >> word) {
@@ -36,7 +36,7 @@ bool read_points(const std::string &text, std::vector<Point> &points, std::vecto
     }
     points.emplace_back();
     links.push_back(word);
-    if (!read_point(part, points.back()))
+    if (!read_space_point(part, points.back()))
       return false;
     part.clear();
   }
@@ -48,7 +48,7 @@ bool read_points(const std::string &text, std::vector<Point> &points, std::vecto
 
 CurveSketch CurveSketch::reversed() const { return {kind, {points.rbegin(), points.rend()}}; }
 
-std::string print(const Point &point) {
+std::string print(const SpacePoint &point) {
   std::ostringstream stream;
   stream << "(" << point[0] << ", " << point[1] << ", " << point[2] << ")";
   return stream.str();
@@ -73,20 +73,20 @@ CurveSketch read_curve(const std::string &text) {
       throw error;
   const std::size_t n = sketch.points.size();
   if (name == "point" && n == 1)
-    sketch.kind = Kind::point;
+    sketch.kind = CurveKind::point;
   else if (name == "line" && n == 2)
-    sketch.kind = Kind::line;
+    sketch.kind = CurveKind::line;
   else if (name == "arc" && n == 3)
-    sketch.kind = Kind::arc;
+    sketch.kind = CurveKind::arc;
   else if (name == "spline" && n >= 3)
-    sketch.kind = Kind::spline;
+    sketch.kind = CurveKind::spline;
   else
     throw error;
   return sketch;
 }
 
 Curve::Curve(const CurveSketch &sketch) {
-  const std::vector<Point> &points = sketch.points;
+  const std::vector<SpacePoint> &points = sketch.points;
   double size = 0.;
   for (const auto &point : points)
     size = std::max(size, (point - points.front()).norm());
@@ -95,44 +95,44 @@ Curve::Curve(const CurveSketch &sketch) {
       throw std::invalid_argument("two points coincide at " + print(points[i]) +
                                   " (a side that shrinks to a point is 'point: x, y, z')");
   switch (sketch.kind) {
-  case Kind::point:
+  case CurveKind::point:
     spans_.push_back({0., points[0], {}, {}, {}});
     break;
-  case Kind::line:
+  case CurveKind::line:
     spans_.push_back({0., points[0], points[1] - points[0], {}, {}});
     break;
-  case Kind::arc:
+  case CurveKind::arc:
     make_arc(points);
     break;
-  case Kind::spline:
+  case CurveKind::spline:
     make_spline(points);
     break;
   }
 }
 
-void Curve::make_arc(const std::vector<Point> &points) {
-  const Point a = points[1] - points[0], b = points[2] - points[0];
-  Point axis = dealii::cross_product_3d(a, b);
+void Curve::make_arc(const std::vector<SpacePoint> &points) {
+  const SpacePoint a = points[1] - points[0], b = points[2] - points[0];
+  SpacePoint axis = dealii::cross_product_3d(a, b);
   const double area = axis.norm(); // twice the area of the triangle
   const double radicand = a.norm_square() * b.norm_square();
   if (area <= in_line * std::sqrt(radicand))
     throw std::invalid_argument("the points of an arc are in line, or its ends coincide, at " +
                                 print(points[1]));
   // Circumcentre: c·a = a²/2, c·b = b²/2 in the plane of a and b.
-  const Point to_centre =
+  const SpacePoint to_centre =
       dealii::cross_product_3d(a.norm_square() * b - b.norm_square() * a, axis) / (2. * area * area);
   axis /= area;
   start_ = points[0];
   arm_ = -to_centre;
   across_ = dealii::cross_product_3d(axis, arm_);
-  const Point end_arm = b - to_centre;
+  const SpacePoint end_arm = b - to_centre;
   sweep_ = std::atan2(end_arm * across_, end_arm * arm_);
   if (sweep_ <= 0.)
     sweep_ += 2. * M_PI;
 }
 
 // Boost.Math has such splines only for equidistant knots.
-void Curve::make_spline(const std::vector<Point> &points) {
+void Curve::make_spline(const std::vector<SpacePoint> &points) {
   const std::size_t n = points.size() - 1;
   std::vector<double> knots(n + 1, 0.);
   for (std::size_t i = 1; i <= n; ++i)
@@ -146,7 +146,7 @@ void Curve::make_spline(const std::vector<Point> &points) {
   const auto h = [&](const std::size_t i) { return knots[i + 1] - knots[i]; };
   const auto slope = [&](const std::size_t i) { return (points[i + 1] - points[i]) / h(i); };
   std::vector<double> factor(n + 1, 0.);
-  std::vector<Point> bend(n + 1);
+  std::vector<SpacePoint> bend(n + 1);
   for (std::size_t i = 1; i < n; ++i) {
     const double pivot = 2. * (h(i - 1) + h(i)) - h(i - 1) * factor[i - 1];
     factor[i] = h(i) / pivot;
@@ -175,8 +175,8 @@ Curve::Jet Curve::at(const double t) const {
           span.c1 + s * (2. * span.c2 + (3. * s) * span.c3), 2. * span.c2 + (6. * s) * span.c3};
 }
 
-Point Curve::max_second(const double from, const double to) const {
-  Point maximum;
+SpacePoint Curve::max_second(const double from, const double to) const {
+  SpacePoint maximum;
   if (spans_.empty())
     for (unsigned int c = 0; c < 3; ++c)
       maximum[c] = sweep_ * sweep_ * std::hypot(arm_[c], across_[c]);

@@ -12,21 +12,22 @@ using dealii::Tensor;
 
 namespace {
 
-template <class Number> using Point = std::array<Number, 2>;
+template <class Number> using PlanePoint = std::array<Number, 2>;
 
-template <class Number> Number cross(const Point<Number> &a, const Point<Number> &b) {
+template <class Number> Number cross(const PlanePoint<Number> &a, const PlanePoint<Number> &b) {
   return a[0] * b[1] - a[1] * b[0];
 }
-template <class Number> Point<Number> operator-(const Point<Number> &a, const Point<Number> &b) {
+template <class Number>
+PlanePoint<Number> operator-(const PlanePoint<Number> &a, const PlanePoint<Number> &b) {
   return {a[0] - b[0], a[1] - b[1]};
 }
 
 /// Convex polygon in the target's plane.
 template <class Number> struct Polygon {
-  std::array<Point<Number>, 9> corners;
+  std::array<PlanePoint<Number>, 9> corners;
   unsigned int n = 0;
 
-  void add(const Point<Number> &corner) { corners[n++] = corner; }
+  void add(const PlanePoint<Number> &corner) { corners[n++] = corner; }
 
   /// Clips the polygon where the linear function `value` is < 0. A corner nearer to that line than
   /// `rounding` counts as on it, since edges of matching facets coincide.
@@ -49,7 +50,7 @@ template <class Number> struct Polygon {
         rest.add(corners[i]);
       if (is_in != is_next_in && (is_in ? values[i] : values[next]) > rounding) {
         const Number part = values[i] / (values[i] - values[next]);
-        const Point<Number> edge = corners[next] - corners[i];
+        const PlanePoint<Number> edge = corners[next] - corners[i];
         rest.add({corners[i][0] + part * edge[0], corners[i][1] + part * edge[1]});
       }
     }
@@ -62,9 +63,9 @@ template <class Number> struct Polygon {
 /// Facet as four triangles in the target's plane, around the middle, counter-clockwise seen from
 /// its own side, with heights above that plane.
 template <class Number> struct Fan {
-  std::array<Point<Number>, 4> corners; ///< corners in the order of FacetCorners
+  std::array<PlanePoint<Number>, 4> corners; ///< corners in the order of FacetCorners
   std::array<Number, 4> heights;
-  Point<Number> middle;
+  PlanePoint<Number> middle;
   Number middle_height;
 
   Fan(const FacetCornersOf<Number> &x, const Tensor<1, 3, Number> &origin,
@@ -85,7 +86,7 @@ template <class Number> struct Fan {
 /// Linear function on the plane.
 template <class Number> struct Linear {
   Number constant, along_q, along_r;
-  Number operator()(const Point<Number> &x) const { return constant + along_q * x[0] + along_r * x[1]; }
+  Number operator()(const PlanePoint<Number> &x) const { return constant + along_q * x[0] + along_r * x[1]; }
 };
 
 /// One triangle of a fan, with the functions of its facet's corners.
@@ -93,7 +94,7 @@ template <class Number> class Triangle {
 public:
   Triangle(const Fan<Number> &fan, const unsigned int edge)
       : first_(facet::around[edge]), second_(facet::around[(edge + 1) % 4]), fan_(fan) {
-    const Point<Number> &a = fan.corners[first_], &b = fan.corners[second_], &c = fan.middle;
+    const PlanePoint<Number> &a = fan.corners[first_], &b = fan.corners[second_], &c = fan.middle;
     double_area = cross<Number>(a - c, b - c);
     if (double_area == 0.)
       return;
@@ -103,7 +104,7 @@ public:
   Number double_area; ///< signed: > 0 if counter-clockwise
   /// Returns the linear functions that are 0 on an edge and 1 at the opposite corner.
   const std::array<Linear<Number>, 3> &barycentric() const { return barycentric_; }
-  std::array<Point<Number>, 3> corners() const {
+  std::array<PlanePoint<Number>, 3> corners() const {
     return {fan_.corners[first_], fan_.corners[second_], fan_.middle};
   }
   Linear<Number> height() const {
@@ -117,7 +118,7 @@ public:
     return result;
   }
   /// Returns the functions of the facet's four corners at x.
-  std::array<Number, 4> functions(const Point<Number> &x) const {
+  std::array<Number, 4> functions(const PlanePoint<Number> &x) const {
     const Number of_middle = 0.25 * barycentric_[2](x);
     std::array<Number, 4> values{of_middle, of_middle, of_middle, of_middle};
     values[first_] += barycentric_[0](x);
@@ -135,7 +136,7 @@ public:
 
 private:
   /// Returns the linear function that is 0 on the line from p to q, scaled by the triangle's area.
-  Linear<Number> line(const Point<Number> &p, const Point<Number> &q) const {
+  Linear<Number> line(const PlanePoint<Number> &p, const PlanePoint<Number> &q) const {
     const Number along_q = -(q[1] - p[1]) / double_area, along_r = (q[0] - p[0]) / double_area;
     return {Number(-(along_q * p[0] + along_r * p[1])), along_q, along_r};
   }
@@ -153,14 +154,14 @@ public:
       : sides_{{{slave_bulge, {slave.parameter(0), slave.parameter(1)}},
                 {target_bulge, {target.parameter(0), target.parameter(1)}}}} {}
 
-  Number operator()(const Point<Number> &x) const {
+  Number operator()(const PlanePoint<Number> &x) const {
     Number sum = 0.;
     for (const Side &side : sides_)
       sum += facet::height<Number>(side.bulge, {side.parameters[0](x), side.parameters[1](x)});
     return sum;
   }
   /// Returns the linear function with the same value and slope at x.
-  Linear<Number> about(const Point<Number> &x) const {
+  Linear<Number> about(const PlanePoint<Number> &x) const {
     Linear<Number> result{(*this)(x), Number(0.), Number(0.)};
     for (const Side &side : sides_) {
       const std::array<Number, 2> slope =
@@ -186,12 +187,12 @@ template <class Number, class Gap>
 void integrate(const Polygon<Number> &polygon, const Triangle<Number> &slave, const Triangle<Number> &target,
                const Gap &gap, FacetOverlapOf<Number> &overlap) {
   for (unsigned int i = 1; i + 1 < polygon.n; ++i) {
-    const std::array<Point<Number>, 3> x{polygon.corners[0], polygon.corners[i], polygon.corners[i + 1]};
+    const std::array<PlanePoint<Number>, 3> x{polygon.corners[0], polygon.corners[i], polygon.corners[i + 1]};
     using std::abs;
     const Number third = abs(cross<Number>(x[1] - x[0], x[2] - x[0])) / 6.;
     for (unsigned int j = 0; j < 3; ++j) { // edge midpoints: exact for quadratic functions
-      const Point<Number> &a = x[j], &b = x[(j + 1) % 3];
-      const Point<Number> middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+      const PlanePoint<Number> &a = x[j], &b = x[(j + 1) % 3];
+      const PlanePoint<Number> middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
       const std::array<Number, 4> phi = slave.functions(middle), psi = target.functions(middle);
       const Number g = gap(middle);
       for (unsigned int k = 0; k < 4; ++k) {
@@ -254,8 +255,9 @@ FacetOverlapOf<Number> compute_overlap(const FacetCornersOf<Number> &slave,
       const Linear<Number> gap{high.constant - low.constant, high.along_q - low.along_q,
                                high.along_r - low.along_r};
       const auto clip = [&](const Linear<Number> &g) {
-        polygon.clip([&](const Point<Number> &x) { return Number(-g(x)); }, height_rounding);
-        polygon.clip([&](const Point<Number> &x) { return Number(penetration + g(x)); }, height_rounding);
+        polygon.clip([&](const PlanePoint<Number> &x) { return Number(-g(x)); }, height_rounding);
+        polygon.clip([&](const PlanePoint<Number> &x) { return Number(penetration + g(x)); },
+                     height_rounding);
       };
       if (!is_curved) {
         clip(gap);
@@ -263,14 +265,14 @@ FacetOverlapOf<Number> compute_overlap(const FacetCornersOf<Number> &slave,
         continue;
       }
       const Heights<Number> heights(above, slave_bulge, below, target_bulge);
-      Point<Number> middle{Number(0.), Number(0.)};
+      PlanePoint<Number> middle{Number(0.), Number(0.)};
       for (unsigned int i = 0; i < polygon.n; ++i)
         for (unsigned int j = 0; j < 2; ++j)
           middle[j] += polygon.corners[i][j] / static_cast<double>(polygon.n);
       const Linear<Number> raised = heights.about(middle);
       clip({gap.constant - raised.constant, gap.along_q - raised.along_q, gap.along_r - raised.along_r});
       integrate(
-          polygon, above, below, [&](const Point<Number> &x) { return Number(gap(x) - heights(x)); },
+          polygon, above, below, [&](const PlanePoint<Number> &x) { return Number(gap(x) - heights(x)); },
           overlap);
     }
   }

@@ -9,7 +9,7 @@ using dealii::Tensor;
 
 namespace {
 
-std::vector<BoundingBox> boxes_of(const TriangleMesh &mesh) {
+std::vector<BoundingBox> triangle_boxes(const TriangleMesh &mesh) {
   std::vector<BoundingBox> boxes;
   boxes.reserve(mesh.facets.size());
   for (const auto &facet : mesh.facets) {
@@ -22,7 +22,7 @@ std::vector<BoundingBox> boxes_of(const TriangleMesh &mesh) {
 
 } // namespace
 
-FacetTree::FacetTree(TriangleMesh mesh) : mesh_(std::move(mesh)), tree_(boxes_of(mesh_)) {}
+FacetTree::FacetTree(TriangleMesh mesh) : mesh_(std::move(mesh)), tree_(triangle_boxes(mesh_)) {}
 
 FacetTree::Foot FacetTree::nearest_on(const unsigned int facet, const Tensor<1, 3> &x) const {
   std::array<Tensor<1, 3>, 3> corners;

@@ -14,7 +14,7 @@ namespace billet {
 namespace {
 
 using Kind = TypeParameter::Kind;
-using Point = Profile::Point;
+using ProfilePoint = Profile::Point;
 
 const std::string corners_meaning =
     "Corners of the profile, separated by semicolons. A corner is 'x, y'. A number ': r' behind it adds a "
@@ -23,7 +23,7 @@ const TypeParameter outside_parameter{"Outside", "left", Kind::choice,
                                       "left|right: Side of the bodies, in the direction of the corners."};
 
 /// Reads exactly two numbers; returns false otherwise.
-bool read_point(const std::string &text, Point &point) {
+bool read_point(const std::string &text, ProfilePoint &point) {
   std::istringstream stream(text);
   char comma = 0;
   std::string rest;
@@ -106,7 +106,7 @@ SurfaceType revolved_profile_type() {
             const auto segments = read_segments(input);
             const Profile profile(segments, read_outside(input));
             const double tiny = 1e-9 * profile.size();
-            if (profile.support(Point({-1., 0.})) > tiny)
+            if (profile.support(ProfilePoint({-1., 0.})) > tiny)
               input.reject("Corners", "a profile on one side of the axis, x >= 0");
             const Profile closed(segments, read_outside(input), std::abs(segments.front().start[0]) <= tiny,
                                  std::abs(segments.back().end[0]) <= tiny);
@@ -184,8 +184,9 @@ SurfacePatches sweep(const SweepPath &path, const Profile &along_sides, const Pr
   }
   const std::array<double, 2> inside = {path.half[0] - path.radius, path.half[1] - path.radius};
   if (has_face && std::min(inside[0], inside[1]) > 1e-12 * path.half[0]) {
-    const Profile line({Profile::Segment::line(Point({-inside[0], height}), Point({inside[0], height}))},
-                       is_up ? Profile::Outside::left : Profile::Outside::right);
+    const Profile line(
+        {Profile::Segment::line(ProfilePoint({-inside[0], height}), ProfilePoint({inside[0], height}))},
+        is_up ? Profile::Outside::left : Profile::Outside::right);
     patches.push_back(std::make_unique<ExtrudedProfile>(line, ProfileAxes(axes.origin, -axes.y, axes.x),
                                                         -inside[1], inside[1]));
   }
@@ -200,13 +201,13 @@ SurfacePatches make_swept(const TypeInput &input) {
     if (!(corners.front().position[0] > -path.radius * (1. - 1e-9)))
       input.reject("Corners", "a first corner at x > -'Corner radius', since 'Inside = flat' begins there");
     ProfileCorner start;
-    start.position = Point({-path.radius, corners.front().position[1]});
+    start.position = ProfilePoint({-path.radius, corners.front().position[1]});
     corners.insert(corners.begin(), start);
   }
   const auto segments = connect_corners(input, corners);
   const Profile::Outside outside = read_outside(input);
   const Profile along_sides(segments, outside);
-  if (along_sides.support(Point({-1., 0.})) > path.radius * (1. + 1e-9))
+  if (along_sides.support(ProfilePoint({-1., 0.})) > path.radius * (1. + 1e-9))
     input.reject("Corners", "a profile with x >= -'Corner radius' everywhere, so that corners do not fold");
   for (ProfileCorner &corner : corners) {
     corner.position[0] = std::max(0., corner.position[0] + path.radius);

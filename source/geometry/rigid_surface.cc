@@ -29,7 +29,7 @@ bool is_between(const Tensor<1, 3> &normal, const std::vector<Tensor<1, 3>> &nor
   return std::acos(std::clamp(normal * mean, -1., 1.)) <= 2. * widest + slack;
 }
 
-std::vector<BoundingBox> boxes_of(const SurfacePatches &patches) {
+std::vector<BoundingBox> patch_boxes(const SurfacePatches &patches) {
   std::vector<BoundingBox> boxes;
   boxes.reserve(patches.size());
   for (const auto &patch : patches)
@@ -40,7 +40,7 @@ std::vector<BoundingBox> boxes_of(const SurfacePatches &patches) {
 } // namespace
 
 RigidSurface::RigidSurface(SurfacePatches patches)
-    : patches_(std::move(patches)), tree_(boxes_of(patches_)), box_(BoundingBox::empty()) {
+    : patches_(std::move(patches)), tree_(patch_boxes(patches_)), box_(BoundingBox::empty()) {
   for (const auto &patch : patches_) {
     const BoundingBox box = patch->bounding_box();
     box_.add(box);

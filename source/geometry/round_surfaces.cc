@@ -10,8 +10,8 @@ namespace billet {
 namespace {
 
 using Kind = TypeParameter::Kind;
-using Point = Profile::Point;
-using Segment = Profile::Segment;
+using ProfilePoint = Profile::Point;
+using ProfileSegment = Profile::Segment;
 
 constexpr double degree = M_PI / 180.;
 
@@ -57,7 +57,8 @@ SurfaceType sphere_type() {
             const double to = in_range(input, "To latitude", -90., 90., "a number from -90 to 90");
             if (to <= from)
               input.reject("To latitude", "a number above 'From latitude'");
-            const Segment arc = Segment::arc(Point(), radius, from * degree, (to - from) * degree);
+            const ProfileSegment arc =
+                ProfileSegment::arc(ProfilePoint(), radius, from * degree, (to - from) * degree);
             return revolve(input, "Centre", Profile({arc}, away_from_axis(input), from == -90., to == 90.));
           }};
 }
@@ -71,14 +72,15 @@ SurfaceType cylinder_type() {
                {"Length", "", Kind::text, "> 0. Length along the axis. Empty: infinite. [length]"}}),
           [](const TypeInput &input) {
             const double radius = input.positive("Radius");
-            std::vector<Segment> segments;
+            std::vector<ProfileSegment> segments;
             if (input.text("Length").empty()) {
-              segments = {Segment::endless_line(Point({radius, 0.}), Point({0., 1.}))};
+              segments = {ProfileSegment::endless_line(ProfilePoint({radius, 0.}), ProfilePoint({0., 1.}))};
             } else {
               const auto length = input.numbers("Length");
               if (length.size() != 1 || !(length[0] > 0.))
                 input.reject("Length", "a number > 0, or nothing");
-              segments = {Segment::line(Point({radius, -0.5 * length[0]}), Point({radius, 0.5 * length[0]}))};
+              segments = {ProfileSegment::line(ProfilePoint({radius, -0.5 * length[0]}),
+                                               ProfilePoint({radius, 0.5 * length[0]}))};
             }
             return revolve(input, "Point", Profile(segments, away_from_axis(input)));
           }};
@@ -102,7 +104,8 @@ SurfaceType cone_type() {
             if (!(to > from))
               input.reject("To height", "a number above 'From height'");
             const double slope = std::tan(angle);
-            const Segment line = Segment::line(Point({slope * from, from}), Point({slope * to, to}));
+            const ProfileSegment line =
+                ProfileSegment::line(ProfilePoint({slope * from, from}), ProfilePoint({slope * to, to}));
             return revolve(input, "Apex", Profile({line}, away_from_axis(input), from == 0.));
           }};
 }
@@ -123,9 +126,10 @@ SurfaceType torus_type() {
             const double from = input.number("From angle"), to = input.number("To angle");
             if (!(to > from && to - from <= 360.))
               input.reject("To angle", "a number above 'From angle', by at most 360");
-            const Segment arc = Segment::arc(Point({ring, 0.}), tube, from * degree, (to - from) * degree);
+            const ProfileSegment arc =
+                ProfileSegment::arc(ProfilePoint({ring, 0.}), tube, from * degree, (to - from) * degree);
             // A part that stays away from the axis may have a thick tube.
-            const double nearest = -Profile({arc}, Profile::Outside::right).support(Point({-1., 0.}));
+            const double nearest = -Profile({arc}, Profile::Outside::right).support(ProfilePoint({-1., 0.}));
             if (nearest < -1e-12 * ring)
               input.reject("Tube radius", "a tube that does not cross the axis: at most the ring radius " +
                                               input.text("Ring radius"));

@@ -8,31 +8,31 @@
 
 namespace billet {
 
-using Point = dealii::Tensor<1, 3>;
+using Vertex = dealii::Tensor<1, 3>;
 
 namespace {
 
-using Corners = std::array<Point, 3>;
+using Corners = std::array<Vertex, 3>;
 
 constexpr double on_it = 1e-9; // tolerance, relative to the triangle's size
 
-struct Triangle {
+struct FacetTriangle {
   Corners corners;
-  Point normal; ///< unit vector
+  Vertex normal; ///< unit vector
   double size, area;
 };
 
-Triangle make_triangle(const Corners &x) {
-  const Point normal = dealii::cross_product_3d(x[1] - x[0], x[2] - x[0]);
+FacetTriangle make_triangle(const Corners &x) {
+  const Vertex normal = dealii::cross_product_3d(x[1] - x[0], x[2] - x[0]);
   const double twice = normal.norm();
-  return {x, twice > 0. ? normal / twice : Point(), std::max((x[1] - x[0]).norm(), (x[2] - x[0]).norm()),
+  return {x, twice > 0. ? normal / twice : Vertex(), std::max((x[1] - x[0]).norm(), (x[2] - x[0]).norm()),
           0.5 * twice};
 }
 
 /// Whether a point of the triangle's plane is inside it, within round-off.
-bool contains(const Triangle &triangle, const Point &x, const double slack) {
+bool contains(const FacetTriangle &triangle, const Vertex &x, const double slack) {
   for (unsigned int i = 0; i < 3; ++i) {
-    const Point &a = triangle.corners[i], &b = triangle.corners[(i + 1) % 3];
+    const Vertex &a = triangle.corners[i], &b = triangle.corners[(i + 1) % 3];
     if (dealii::cross_product_3d(b - a, x - a) * triangle.normal < -slack * triangle.size * triangle.size)
       return false;
   }
@@ -40,10 +40,10 @@ bool contains(const Triangle &triangle, const Point &x, const double slack) {
 }
 
 /// Whether an edge of the first pierces the second.
-bool pierces(const Triangle &first, const Triangle &second) {
+bool pierces(const FacetTriangle &first, const FacetTriangle &second) {
   const double nothing = on_it * second.size;
   for (unsigned int i = 0; i < 3; ++i) {
-    const Point &a = first.corners[i], &b = first.corners[(i + 1) % 3];
+    const Vertex &a = first.corners[i], &b = first.corners[(i + 1) % 3];
     const double above = (a - second.corners[0]) * second.normal,
                  below = (b - second.corners[0]) * second.normal;
     if (std::min(std::abs(above), std::abs(below)) <= nothing || above * below > 0.)
@@ -56,23 +56,23 @@ bool pierces(const Triangle &first, const Triangle &second) {
 
 /// Whether the two lie in one plane and share more than an edge. For generic triangles, a corner of
 /// one is then inside the other, or edges cross.
-bool overlap_in_plane(const Triangle &first, const Triangle &second) {
+bool overlap_in_plane(const FacetTriangle &first, const FacetTriangle &second) {
   for (const auto &corner : first.corners)
     if (std::abs((corner - second.corners[0]) * second.normal) > on_it * second.size)
       return false;
   for (const auto &[one, other] :
-       {std::pair<const Triangle &, const Triangle &>(first, second), {second, first}})
+       {std::pair<const FacetTriangle &, const FacetTriangle &>(first, second), {second, first}})
     for (const auto &corner : one.corners)
       if (contains(other, corner, -on_it))
         return true;
-  const auto side = [&](const Point &a, const Point &b, const Point &x) {
+  const auto side = [&](const Vertex &a, const Vertex &b, const Vertex &x) {
     const double area = dealii::cross_product_3d(b - a, x - a) * second.normal;
     return std::abs(area) <= on_it * second.size * second.size ? 0. : area;
   };
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j) {
-      const Point &a = first.corners[i], &b = first.corners[(i + 1) % 3];
-      const Point &c = second.corners[j], &d = second.corners[(j + 1) % 3];
+      const Vertex &a = first.corners[i], &b = first.corners[(i + 1) % 3];
+      const Vertex &c = second.corners[j], &d = second.corners[(j + 1) % 3];
       if (side(a, b, c) * side(a, b, d) < 0. && side(c, d, a) * side(c, d, b) < 0.)
         return true;
     }
@@ -81,9 +81,9 @@ bool overlap_in_plane(const Triangle &first, const Triangle &second) {
 
 } // namespace
 
-std::optional<Point> find_self_crossing(const std::vector<Point> &points,
-                                        const std::vector<std::array<unsigned int, 3>> &triangles) {
-  std::vector<Triangle> made;
+std::optional<Vertex> find_self_crossing(const std::vector<Vertex> &points,
+                                         const std::vector<std::array<unsigned int, 3>> &triangles) {
+  std::vector<FacetTriangle> made;
   std::vector<BoundingBox> boxes;
   for (const auto &corners : triangles) {
     made.push_back(make_triangle({points[corners[0]], points[corners[1]], points[corners[2]]}));
@@ -92,9 +92,9 @@ std::optional<Point> find_self_crossing(const std::vector<Point> &points,
       boxes.back().add(corner);
   }
   const BoxTree tree(boxes);
-  std::optional<Point> found;
+  std::optional<Vertex> found;
   for (unsigned int i = 0; i < made.size() && !found; ++i) {
-    const Point middle = 0.5 * (boxes[i].low + boxes[i].high);
+    const Vertex middle = 0.5 * (boxes[i].low + boxes[i].high);
     const double reach_square = 0.25 * (boxes[i].high - boxes[i].low).norm_square();
     tree.visit_near(middle, reach_square, [&](const unsigned int j) {
       const auto &first = triangles[i], &second = triangles[j];

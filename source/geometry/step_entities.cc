@@ -19,7 +19,7 @@ namespace billet {
 namespace {
 
 /// Role of an entity for those that refer to it.
-enum class Kind {
+enum class EntityKind {
   unknown, ///< none of the rules
   complex, ///< with parts of several types, such as rational splines
   point,
@@ -40,41 +40,41 @@ enum class Kind {
   solid
 };
 
-const char *name_of(const Kind kind) {
+const char *name_of(const EntityKind kind) {
   switch (kind) {
-  case Kind::unknown:
-  case Kind::complex:
+  case EntityKind::unknown:
+  case EntityKind::complex:
     break;
-  case Kind::point:
+  case EntityKind::point:
     return "a point";
-  case Kind::direction:
+  case EntityKind::direction:
     return "a direction";
-  case Kind::vector:
+  case EntityKind::vector:
     return "a vector";
-  case Kind::axes:
+  case EntityKind::axes:
     return "axes";
-  case Kind::curve:
-  case Kind::parameter_curve:
+  case EntityKind::curve:
+  case EntityKind::parameter_curve:
     return "a curve";
-  case Kind::surface:
+  case EntityKind::surface:
     return "a surface";
-  case Kind::representation:
+  case EntityKind::representation:
     return "a representation";
-  case Kind::vertex:
+  case EntityKind::vertex:
     return "a vertex";
-  case Kind::edge:
+  case EntityKind::edge:
     return "an edge";
-  case Kind::oriented_edge:
+  case EntityKind::oriented_edge:
     return "an oriented edge";
-  case Kind::loop:
+  case EntityKind::loop:
     return "a loop";
-  case Kind::bound:
+  case EntityKind::bound:
     return "a bound of a face";
-  case Kind::face:
+  case EntityKind::face:
     return "a face";
-  case Kind::shell:
+  case EntityKind::shell:
     return "a shell";
-  case Kind::solid:
+  case EntityKind::solid:
     return "a solid";
   }
   return "another entity";
@@ -84,67 +84,74 @@ const char *name_of(const Kind kind) {
 /// lengths > 0. It has the kinds of those that refer to entities, alone or in a list. Source: ISO
 /// 10303-42, sections 4 and 5.
 struct EntityRule {
-  Kind kind;
+  EntityKind kind;
   std::size_t n_parameters;
   std::vector<std::size_t> lengths = {};
-  std::vector<std::pair<std::size_t, Kind>> references = {};
+  std::vector<std::pair<std::size_t, EntityKind>> references = {};
 };
 
 const std::unordered_map<std::string_view, EntityRule> &rules() {
   static const std::unordered_map<std::string_view, EntityRule> table{
-      {"CARTESIAN_POINT", {Kind::point, 2}},
-      {"DIRECTION", {Kind::direction, 2}},
-      {"VECTOR", {Kind::vector, 3, {}, {{1, Kind::direction}}}},
-      {"AXIS1_PLACEMENT", {Kind::axes, 3, {}, {{1, Kind::point}, {2, Kind::direction}}}},
-      {"AXIS2_PLACEMENT_2D", {Kind::axes, 3, {}, {{1, Kind::point}, {2, Kind::direction}}}},
+      {"CARTESIAN_POINT", {EntityKind::point, 2}},
+      {"DIRECTION", {EntityKind::direction, 2}},
+      {"VECTOR", {EntityKind::vector, 3, {}, {{1, EntityKind::direction}}}},
+      {"AXIS1_PLACEMENT", {EntityKind::axes, 3, {}, {{1, EntityKind::point}, {2, EntityKind::direction}}}},
+      {"AXIS2_PLACEMENT_2D", {EntityKind::axes, 3, {}, {{1, EntityKind::point}, {2, EntityKind::direction}}}},
       {"AXIS2_PLACEMENT_3D",
-       {Kind::axes, 4, {}, {{1, Kind::point}, {2, Kind::direction}, {3, Kind::direction}}}},
-      {"LINE", {Kind::curve, 3, {}, {{1, Kind::point}, {2, Kind::vector}}}},
-      {"CIRCLE", {Kind::curve, 3, {2}, {{1, Kind::axes}}}},
-      {"ELLIPSE", {Kind::curve, 4, {2, 3}, {{1, Kind::axes}}}},
-      {"HYPERBOLA", {Kind::curve, 4, {2, 3}, {{1, Kind::axes}}}},
-      {"PARABOLA", {Kind::curve, 3, {}, {{1, Kind::axes}}}},
-      {"POLYLINE", {Kind::curve, 2, {}, {{1, Kind::point}}}},
-      {"TRIMMED_CURVE", {Kind::curve, 6, {}, {{1, Kind::curve}}}},
-      {"B_SPLINE_CURVE_WITH_KNOTS", {Kind::curve, 9, {}, {{2, Kind::point}}}},
-      {"SURFACE_CURVE", {Kind::curve, 4, {}, {{1, Kind::curve}}}},
-      {"SEAM_CURVE", {Kind::curve, 4, {}, {{1, Kind::curve}}}},
-      {"INTERSECTION_CURVE", {Kind::curve, 4, {}, {{1, Kind::curve}}}},
-      {"PCURVE", {Kind::parameter_curve, 3, {}, {{1, Kind::surface}, {2, Kind::representation}}}},
-      {"DEFINITIONAL_REPRESENTATION", {Kind::representation, 3}},
-      {"PLANE", {Kind::surface, 2, {}, {{1, Kind::axes}}}},
-      {"CYLINDRICAL_SURFACE", {Kind::surface, 3, {2}, {{1, Kind::axes}}}},
-      {"CONICAL_SURFACE", {Kind::surface, 4, {}, {{1, Kind::axes}}}},
-      {"SPHERICAL_SURFACE", {Kind::surface, 3, {2}, {{1, Kind::axes}}}},
-      {"TOROIDAL_SURFACE", {Kind::surface, 4, {2, 3}, {{1, Kind::axes}}}},
-      {"SURFACE_OF_LINEAR_EXTRUSION", {Kind::surface, 3, {}, {{1, Kind::curve}, {2, Kind::vector}}}},
-      {"SURFACE_OF_REVOLUTION", {Kind::surface, 3, {}, {{1, Kind::curve}, {2, Kind::axes}}}},
-      {"B_SPLINE_SURFACE_WITH_KNOTS", {Kind::surface, 13, {}, {{3, Kind::point}}}},
-      {"RECTANGULAR_TRIMMED_SURFACE", {Kind::surface, 7, {}, {{1, Kind::surface}}}},
-      {"VERTEX_POINT", {Kind::vertex, 2, {}, {{1, Kind::point}}}},
-      {"EDGE_CURVE", {Kind::edge, 5, {}, {{1, Kind::vertex}, {2, Kind::vertex}, {3, Kind::curve}}}},
-      {"ORIENTED_EDGE", {Kind::oriented_edge, 5, {}, {{3, Kind::edge}}}},
-      {"EDGE_LOOP", {Kind::loop, 2, {}, {{1, Kind::oriented_edge}}}},
-      {"VERTEX_LOOP", {Kind::loop, 2, {}, {{1, Kind::vertex}}}},
-      {"POLY_LOOP", {Kind::loop, 2, {}, {{1, Kind::point}}}},
-      {"FACE_BOUND", {Kind::bound, 3, {}, {{1, Kind::loop}}}},
-      {"FACE_OUTER_BOUND", {Kind::bound, 3, {}, {{1, Kind::loop}}}},
-      {"ADVANCED_FACE", {Kind::face, 4, {}, {{1, Kind::bound}, {2, Kind::surface}}}},
-      {"FACE_SURFACE", {Kind::face, 4, {}, {{1, Kind::bound}, {2, Kind::surface}}}},
-      {"CLOSED_SHELL", {Kind::shell, 2, {}, {{1, Kind::face}}}},
-      {"OPEN_SHELL", {Kind::shell, 2, {}, {{1, Kind::face}}}},
-      {"MANIFOLD_SOLID_BREP", {Kind::solid, 2, {}, {{1, Kind::shell}}}},
-      {"SHELL_BASED_SURFACE_MODEL", {Kind::solid, 2, {}, {{1, Kind::shell}}}}};
+       {EntityKind::axes,
+        4,
+        {},
+        {{1, EntityKind::point}, {2, EntityKind::direction}, {3, EntityKind::direction}}}},
+      {"LINE", {EntityKind::curve, 3, {}, {{1, EntityKind::point}, {2, EntityKind::vector}}}},
+      {"CIRCLE", {EntityKind::curve, 3, {2}, {{1, EntityKind::axes}}}},
+      {"ELLIPSE", {EntityKind::curve, 4, {2, 3}, {{1, EntityKind::axes}}}},
+      {"HYPERBOLA", {EntityKind::curve, 4, {2, 3}, {{1, EntityKind::axes}}}},
+      {"PARABOLA", {EntityKind::curve, 3, {}, {{1, EntityKind::axes}}}},
+      {"POLYLINE", {EntityKind::curve, 2, {}, {{1, EntityKind::point}}}},
+      {"TRIMMED_CURVE", {EntityKind::curve, 6, {}, {{1, EntityKind::curve}}}},
+      {"B_SPLINE_CURVE_WITH_KNOTS", {EntityKind::curve, 9, {}, {{2, EntityKind::point}}}},
+      {"SURFACE_CURVE", {EntityKind::curve, 4, {}, {{1, EntityKind::curve}}}},
+      {"SEAM_CURVE", {EntityKind::curve, 4, {}, {{1, EntityKind::curve}}}},
+      {"INTERSECTION_CURVE", {EntityKind::curve, 4, {}, {{1, EntityKind::curve}}}},
+      {"PCURVE",
+       {EntityKind::parameter_curve, 3, {}, {{1, EntityKind::surface}, {2, EntityKind::representation}}}},
+      {"DEFINITIONAL_REPRESENTATION", {EntityKind::representation, 3}},
+      {"PLANE", {EntityKind::surface, 2, {}, {{1, EntityKind::axes}}}},
+      {"CYLINDRICAL_SURFACE", {EntityKind::surface, 3, {2}, {{1, EntityKind::axes}}}},
+      {"CONICAL_SURFACE", {EntityKind::surface, 4, {}, {{1, EntityKind::axes}}}},
+      {"SPHERICAL_SURFACE", {EntityKind::surface, 3, {2}, {{1, EntityKind::axes}}}},
+      {"TOROIDAL_SURFACE", {EntityKind::surface, 4, {2, 3}, {{1, EntityKind::axes}}}},
+      {"SURFACE_OF_LINEAR_EXTRUSION",
+       {EntityKind::surface, 3, {}, {{1, EntityKind::curve}, {2, EntityKind::vector}}}},
+      {"SURFACE_OF_REVOLUTION",
+       {EntityKind::surface, 3, {}, {{1, EntityKind::curve}, {2, EntityKind::axes}}}},
+      {"B_SPLINE_SURFACE_WITH_KNOTS", {EntityKind::surface, 13, {}, {{3, EntityKind::point}}}},
+      {"RECTANGULAR_TRIMMED_SURFACE", {EntityKind::surface, 7, {}, {{1, EntityKind::surface}}}},
+      {"VERTEX_POINT", {EntityKind::vertex, 2, {}, {{1, EntityKind::point}}}},
+      {"EDGE_CURVE",
+       {EntityKind::edge, 5, {}, {{1, EntityKind::vertex}, {2, EntityKind::vertex}, {3, EntityKind::curve}}}},
+      {"ORIENTED_EDGE", {EntityKind::oriented_edge, 5, {}, {{3, EntityKind::edge}}}},
+      {"EDGE_LOOP", {EntityKind::loop, 2, {}, {{1, EntityKind::oriented_edge}}}},
+      {"VERTEX_LOOP", {EntityKind::loop, 2, {}, {{1, EntityKind::vertex}}}},
+      {"POLY_LOOP", {EntityKind::loop, 2, {}, {{1, EntityKind::point}}}},
+      {"FACE_BOUND", {EntityKind::bound, 3, {}, {{1, EntityKind::loop}}}},
+      {"FACE_OUTER_BOUND", {EntityKind::bound, 3, {}, {{1, EntityKind::loop}}}},
+      {"ADVANCED_FACE", {EntityKind::face, 4, {}, {{1, EntityKind::bound}, {2, EntityKind::surface}}}},
+      {"FACE_SURFACE", {EntityKind::face, 4, {}, {{1, EntityKind::bound}, {2, EntityKind::surface}}}},
+      {"CLOSED_SHELL", {EntityKind::shell, 2, {}, {{1, EntityKind::face}}}},
+      {"OPEN_SHELL", {EntityKind::shell, 2, {}, {{1, EntityKind::face}}}},
+      {"MANIFOLD_SOLID_BREP", {EntityKind::solid, 2, {}, {{1, EntityKind::shell}}}},
+      {"SHELL_BASED_SURFACE_MODEL", {EntityKind::solid, 2, {}, {{1, EntityKind::shell}}}}};
   return table;
 }
 
 struct Entity {
   std::uint64_t name;
-  Kind kind = Kind::unknown;
+  EntityKind kind = EntityKind::unknown;
   std::string_view type = {}; ///< its keyword; empty if it is complex
   std::size_t n_coordinates = 0;
   /// Names of entities, and what these should be; unknown if no rule says that.
-  std::vector<std::pair<std::uint64_t, Kind>> references = {};
+  std::vector<std::pair<std::uint64_t, EntityKind>> references = {};
 };
 
 constexpr auto blanks = " \t\r\n\f\v";
@@ -187,11 +194,11 @@ private:
     entities.push_back({name});
     if (next() == '(') { // a complex entity, of which each part has some of the parameters
       ++at_;
-      entities.back().kind = Kind::complex;
+      entities.back().kind = EntityKind::complex;
       while (next() != ')') {
         keyword();
         for (const Parameter &parameter : parameters(0))
-          add_references(parameter, Kind::unknown, entities.back());
+          add_references(parameter, EntityKind::unknown, entities.back());
       }
       ++at_;
     } else if (next() == '<')
@@ -204,7 +211,7 @@ private:
       refuse("has no ';' at its end");
   }
 
-  static void add_references(const Parameter &parameter, const Kind kind, Entity &entity) {
+  static void add_references(const Parameter &parameter, const EntityKind kind, Entity &entity) {
     for (const std::uint64_t name : parameter.references)
       entity.references.emplace_back(name, kind);
   }
@@ -213,7 +220,7 @@ private:
     const auto rule = rules().find(type);
     entity.type = type;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
-      Kind kind = Kind::unknown;
+      EntityKind kind = EntityKind::unknown;
       if (rule != rules().end())
         for (const auto &[place, expected] : rule->second.references)
           kind = place == i ? expected : kind;
@@ -234,7 +241,7 @@ private:
       for (const double value : parameter.numbers)
         check_size(value);
     }
-    if (entity.kind == Kind::point || entity.kind == Kind::direction) {
+    if (entity.kind == EntityKind::point || entity.kind == EntityKind::direction) {
       entity.n_coordinates = parameters[1].numbers.size();
       if (!parameters[1].is_list || entity.n_coordinates < 1 || entity.n_coordinates > 3)
         refuse("is a " + word + " with " + std::to_string(entity.n_coordinates) + " coordinates");
@@ -419,11 +426,12 @@ public:
   void check_coordinates() const {
     std::vector<std::size_t> in_space, in_parameters;
     for (std::size_t i = 0; i < entities_.size(); ++i)
-      if (entities_[i].kind == Kind::face)
+      if (entities_[i].kind == EntityKind::face)
         in_space.push_back(i);
-      else if (entities_[i].kind == Kind::parameter_curve)
+      else if (entities_[i].kind == EntityKind::parameter_curve)
         for (const auto &[name, kind] : entities_[i].references)
-          if (const auto found = index_.find(name); kind == Kind::representation && found != index_.end())
+          if (const auto found = index_.find(name);
+              kind == EntityKind::representation && found != index_.end())
             in_parameters.push_back(found->second);
     check_coordinates(std::move(in_space), 3, "of a face");
     check_coordinates(std::move(in_parameters), 2, "in the parameters of a face");
@@ -432,23 +440,23 @@ public:
 private:
   /// Whether an entity may stand where one of this kind should be. Other types of curves and
   /// surfaces than those of the rules have telling names.
-  static bool can_be(const Entity &entity, const Kind kind) {
+  static bool can_be(const Entity &entity, const EntityKind kind) {
     const auto has = [&](const std::string_view word) {
       return entity.type.find(word) != std::string_view::npos;
     };
-    if (kind == Kind::unknown || entity.kind == kind)
+    if (kind == EntityKind::unknown || entity.kind == kind)
       return true;
-    if (kind == Kind::curve)
-      return entity.kind == Kind::parameter_curve || entity.kind == Kind::complex ||
-             (entity.kind == Kind::unknown && has("CURVE"));
-    if (kind == Kind::surface)
-      return entity.kind == Kind::complex || (entity.kind == Kind::unknown && has("SURFACE"));
-    if (kind == Kind::representation)
-      return entity.kind == Kind::complex;
-    return entity.kind == Kind::unknown &&
-           ((kind == Kind::edge && has("EDGE")) || (kind == Kind::oriented_edge && has("EDGE")) ||
-            (kind == Kind::face && has("FACE")) || (kind == Kind::shell && has("SHELL")) ||
-            (kind == Kind::point && has("POINT")) || (kind == Kind::vertex && has("VERTEX")));
+    if (kind == EntityKind::curve)
+      return entity.kind == EntityKind::parameter_curve || entity.kind == EntityKind::complex ||
+             (entity.kind == EntityKind::unknown && has("CURVE"));
+    if (kind == EntityKind::surface)
+      return entity.kind == EntityKind::complex || (entity.kind == EntityKind::unknown && has("SURFACE"));
+    if (kind == EntityKind::representation)
+      return entity.kind == EntityKind::complex;
+    return entity.kind == EntityKind::unknown &&
+           ((kind == EntityKind::edge && has("EDGE")) || (kind == EntityKind::oriented_edge && has("EDGE")) ||
+            (kind == EntityKind::face && has("FACE")) || (kind == EntityKind::shell && has("SHELL")) ||
+            (kind == EntityKind::point && has("POINT")) || (kind == EntityKind::vertex && has("VERTEX")));
   }
 
   void check_coordinates(std::vector<std::size_t> open, const std::size_t n, const char *const where) const {
@@ -457,10 +465,11 @@ private:
       const std::size_t current = open.back();
       const Entity &entity = entities_[current];
       open.pop_back();
-      if (is_seen[current] || entity.kind == Kind::parameter_curve)
+      if (is_seen[current] || entity.kind == EntityKind::parameter_curve)
         continue;
       is_seen[current] = true;
-      if ((entity.kind == Kind::point || entity.kind == Kind::direction) && entity.n_coordinates != n)
+      if ((entity.kind == EntityKind::point || entity.kind == EntityKind::direction) &&
+          entity.n_coordinates != n)
         throw std::invalid_argument("its entity #" + std::to_string(entity.name) + ", " + where + ", has " +
                                     std::to_string(entity.n_coordinates) + " coordinates, where " +
                                     std::to_string(n) + " should be");

@@ -54,7 +54,7 @@ private:
 };
 
 template <class Elastic, class Plastic>
-SharedLaw make_law(const char *name, const ElasticModuli &elastic, SharedFlow flow) {
+SharedLaw make_elastic_law(const char *name, const ElasticModuli &elastic, SharedFlow flow) {
   if (flow == nullptr)
     return std::make_shared<const LawAdapter<Elastic>>(name, Elastic(elastic));
   return std::make_shared<const LawAdapter<Plastic>>(name, Plastic(elastic, std::move(flow)));
@@ -69,13 +69,14 @@ double PointLaw::bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const
 }
 
 SharedLaw make_hencky_law(const ElasticModuli &elastic, SharedFlow flow) {
-  return make_law<HenckyElasticity, HenckyPlasticity>(hencky, elastic, std::move(flow));
+  return make_elastic_law<HenckyElasticity, HenckyPlasticity>(hencky, elastic, std::move(flow));
 }
 SharedLaw make_neo_hookean_law(const ElasticModuli &elastic, SharedFlow flow) {
-  return make_law<NeoHookeanElasticity, NeoHookeanPlasticity>(neo_hookean, elastic, std::move(flow));
+  return make_elastic_law<NeoHookeanElasticity, NeoHookeanPlasticity>(neo_hookean, elastic, std::move(flow));
 }
 SharedLaw make_hypoelastic_law(const ElasticModuli &elastic, SharedFlow flow) {
-  return make_law<HypoelasticElasticity, HypoelasticPlasticity>(hypoelastic, elastic, std::move(flow));
+  return make_elastic_law<HypoelasticElasticity, HypoelasticPlasticity>(hypoelastic, elastic,
+                                                                        std::move(flow));
 }
 
 ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,

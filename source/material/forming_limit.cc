@@ -10,7 +10,7 @@ namespace billet {
 
 namespace {
 
-PointTable table() {
+PointTable limit_table() {
   return {
       "Forming limit", "minor : major",
       "Logarithmic strains in the plane of a sheet at which it necks: minor ones increase strictly, major "
@@ -23,7 +23,7 @@ double FormingLimit::major_strain(const double minor_strain) const {
   return interpolate(points_, minor_strain);
 }
 
-std::vector<TypeParameter> FormingLimit::parameters() { return table().parameters(); }
+std::vector<TypeParameter> FormingLimit::parameters() { return limit_table().parameters(); }
 
 std::shared_ptr<const FormingLimit> FormingLimit::read(const TypeInput &input) {
   const auto names = parameters();
@@ -31,7 +31,7 @@ std::shared_ptr<const FormingLimit> FormingLimit::read(const TypeInput &input) {
     return nullptr;
   std::string key;
   std::vector<std::array<double, 2>> points;
-  for (const auto &[minor, major] : table().read(input, key)) {
+  for (const auto &[minor, major] : limit_table().read(input, key)) {
     if (!(major > 0.))
       input.reject(key, "major strains > 0");
     if (!points.empty() && !(minor > points.back()[0]))

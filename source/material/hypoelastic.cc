@@ -32,13 +32,9 @@ bool compute_increment(const Tensor<2, 3> &F_n, const Tensor<2, 3> &F, MidpointI
   return std::isfinite(increment.rotation.norm());
 }
 
-namespace {
-
 SymmetricTensor<2, 3> turn(const Tensor<2, 3> &R, const SymmetricTensor<2, 3> &s) {
   return dealii::symmetrize(R * static_cast<Tensor<2, 3>>(s) * dealii::transpose(R));
 }
-
-} // namespace
 
 SymmetricTensor<2, 3> compute_trial_deviator(const MidpointIncrement &increment, const double shear,
                                              const SymmetricTensor<2, 3> &deviator_n) {

@@ -13,13 +13,13 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr unsigned int rows[6] = {0, 1, 2, 0, 0, 1}, columns[6] = {0, 1, 2, 1, 2, 2};
+constexpr unsigned int voigt_rows[6] = {0, 1, 2, 0, 0, 1}, voigt_columns[6] = {0, 1, 2, 1, 2, 2};
 
 /// Adds L τ + τ Lᵀ to the rates for each L = e_j ⊗ e_k.
 void add_convection(const SymmetricTensor<2, 3> &tau, StressRates &rates) {
   for (unsigned int r = 0; r < 6; ++r)
     for (unsigned int k = 0; k < 3; ++k) {
-      const unsigned int p = rows[r], q = columns[r];
+      const unsigned int p = voigt_rows[r], q = voigt_columns[r];
       rates[r][3 * p + k] += tau[k][q];
       rates[r][3 * q + k] += tau[p][k];
     }

@@ -4,6 +4,7 @@
 #include "billet/material/elasticity.h"
 #include "billet/material/hardening.h"
 #include "billet/material/hencky.h"
+#include "billet/material/hypoelastic.h"
 #include "billet/material/user_subroutine.h"
 
 #include <deal.II/physics/transformations.h>
@@ -73,10 +74,6 @@ std::string number(const double x) {
 }
 
 std::string counted(const std::size_t n, const std::string &what) { return std::to_string(n) + " " + what; }
-
-SymmetricTensor<2, 3> turn(const Tensor<2, 3> &R, const SymmetricTensor<2, 3> &s) {
-  return dealii::symmetrize(R * static_cast<Tensor<2, 3>>(s) * dealii::transpose(R));
-}
 
 } // namespace
 

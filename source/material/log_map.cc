@@ -12,7 +12,7 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr unsigned int rows[6] = {0, 1, 2, 0, 0, 1}, columns[6] = {0, 1, 2, 1, 2, 2};
+constexpr unsigned int log_rows[6] = {0, 1, 2, 0, 0, 1}, log_columns[6] = {0, 1, 2, 1, 2, 2};
 const double root_2 = std::sqrt(2.);
 
 } // namespace
@@ -20,14 +20,14 @@ const double root_2 = std::sqrt(2.);
 Vector6 to_kelvin(const SymmetricTensor<2, 3> &tensor) {
   Vector6 vector;
   for (unsigned int i = 0; i < 6; ++i)
-    vector[i] = (i < 3 ? 1. : root_2) * tensor[rows[i]][columns[i]];
+    vector[i] = (i < 3 ? 1. : root_2) * tensor[log_rows[i]][log_columns[i]];
   return vector;
 }
 
 SymmetricTensor<2, 3> from_kelvin(const Vector6 &vector) {
   SymmetricTensor<2, 3> tensor;
   for (unsigned int i = 0; i < 6; ++i)
-    tensor[rows[i]][columns[i]] = vector[i] / (i < 3 ? 1. : root_2);
+    tensor[log_rows[i]][log_columns[i]] = vector[i] / (i < 3 ? 1. : root_2);
   return tensor;
 }
 

@@ -40,10 +40,10 @@ private:
 };
 
 /// Not a constant of the file: other files may ask for the type before it is made.
-CurvesInput curves_input() { return {"Curve rates", "Curves file", "Curves columns", "rate", "1/time"}; }
+CurvesInput rate_curves_input() { return {"Curve rates", "Curves file", "Curves columns", "rate", "1/time"}; }
 
-std::shared_ptr<const RateFactor> make_curves(const TypeInput &input) {
-  const CurvesInput curves = curves_input();
+std::shared_ptr<const RateFactor> make_rate_curves(const TypeInput &input) {
+  const CurvesInput curves = rate_curves_input();
   std::vector<double> rates = input.numbers(curves.values_key);
   if (rates.size() < 2 || !(rates.front() > 0.) ||
       std::adjacent_find(rates.begin(), rates.end(), std::greater_equal<>()) != rates.end())
@@ -60,10 +60,11 @@ std::shared_ptr<const RateFactor> make_curves(const TypeInput &input) {
 } // namespace
 
 RateFactorType rate_curves_type() {
-  return {"curves", "curves of hardening at several rates, over the first one",
-          curves_input().parameters("At least two rates > 0 that increase strictly, one for each curve. The "
-                                    "factor is 1 up to the first one, and constant beyond the last one."),
-          &make_curves};
+  return {
+      "curves", "curves of hardening at several rates, over the first one",
+      rate_curves_input().parameters("At least two rates > 0 that increase strictly, one for each curve. The "
+                                     "factor is 1 up to the first one, and constant beyond the last one."),
+      &make_rate_curves};
 }
 
 } // namespace billet

@@ -40,7 +40,7 @@ double TabulatedHardening::slope_of(const std::size_t i) const {
 namespace {
 
 /// Not a constant of the file: other files may ask for the type before it is made.
-PointTable table() {
+PointTable hardening_table() {
   return {"Table", "strain : stress",
           "Plastic strains increase strictly from 0; yield stresses > 0 do not decrease. The "
           "stress is constant beyond the last point. [- : stress]"};
@@ -52,10 +52,10 @@ std::string print(const double number) {
   return text.str();
 }
 
-std::shared_ptr<const HardeningLaw> make_table(const TypeInput &input) {
+std::shared_ptr<const HardeningLaw> make_hardening_table(const TypeInput &input) {
   std::string key;
   std::vector<double> strains, stresses;
-  for (const auto &[strain, stress] : table().read(input, key)) {
+  for (const auto &[strain, stress] : hardening_table().read(input, key)) {
     if (strains.empty() && strain != 0.)
       input.reject(key, "a curve that starts at plastic strain 0");
     if (!(stress > 0.))
@@ -77,7 +77,8 @@ std::shared_ptr<const HardeningLaw> make_table(const TypeInput &input) {
 } // namespace
 
 HardeningType tabulated_hardening_type() {
-  return {"table", "linear interpolation between points", table().parameters(), &make_table};
+  return {"table", "linear interpolation between points", hardening_table().parameters(),
+          &make_hardening_table};
 }
 
 } // namespace billet

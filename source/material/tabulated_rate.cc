@@ -26,16 +26,16 @@ private:
 };
 
 /// Not a constant of the file: other files may ask for the type before it is made.
-PointTable table() {
+PointTable rate_table() {
   return {"Rate table", "rate : factor",
           "Rates > 0 increase strictly; factors >= 1 do not decrease. The factor is 1 at rest, "
           "and constant beyond the last point. [1/time : -]"};
 }
 
-std::shared_ptr<const RateFactor> make_table(const TypeInput &input) {
+std::shared_ptr<const RateFactor> make_rate_table(const TypeInput &input) {
   std::string key;
   CurvePoints points = {{0., 1.}};
-  for (const auto &[rate, factor] : table().read(input, key)) {
+  for (const auto &[rate, factor] : rate_table().read(input, key)) {
     if (!(rate > points.back()[0]))
       input.reject(key, "rates > 0 that increase strictly");
     if (!(factor >= points.back()[1]))
@@ -50,7 +50,8 @@ std::shared_ptr<const RateFactor> make_table(const TypeInput &input) {
 } // namespace
 
 RateFactorType tabulated_rate_type() {
-  return {"table", "linear interpolation between points, from 1 at rest", table().parameters(), &make_table};
+  return {"table", "linear interpolation between points, from 1 at rest", rate_table().parameters(),
+          &make_rate_table};
 }
 
 } // namespace billet

@@ -26,16 +26,16 @@ private:
 };
 
 /// Not a constant of the file: other files may ask for the type before it is made.
-PointTable table() {
+PointTable thermal_table() {
   return {"Thermal table", "temperature : factor",
           "Temperatures increase strictly; factors are > 0. The factor is constant beyond both "
           "ends. [temperature : -]"};
 }
 
-std::shared_ptr<const ThermalFactor> make_table(const TypeInput &input) {
+std::shared_ptr<const ThermalFactor> make_thermal_table(const TypeInput &input) {
   std::string key;
   CurvePoints points;
-  for (const auto &[temperature, factor] : table().read(input, key)) {
+  for (const auto &[temperature, factor] : thermal_table().read(input, key)) {
     if (!(factor > 0.))
       input.reject(key, "factors > 0");
     if (!points.empty() && !(temperature > points.back()[0]))
@@ -50,7 +50,7 @@ std::shared_ptr<const ThermalFactor> make_table(const TypeInput &input) {
 } // namespace
 
 ThermalFactorType tabulated_thermal_type() {
-  return {"table", "linear interpolation between points", table().parameters(), &make_table};
+  return {"table", "linear interpolation between points", thermal_table().parameters(), &make_thermal_table};
 }
 
 } // namespace billet

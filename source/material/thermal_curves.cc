@@ -36,13 +36,13 @@ private:
   HardeningCurves curves_;
 };
 
-CurvesInput curves_input() {
+CurvesInput thermal_curves_input() {
   return {"Curve temperatures", "Thermal curves file", "Thermal curves columns", "temperature",
           "temperature"};
 }
 
-std::shared_ptr<const ThermalFactor> make_curves(const TypeInput &input) {
-  const CurvesInput curves = curves_input();
+std::shared_ptr<const ThermalFactor> make_thermal_curves(const TypeInput &input) {
+  const CurvesInput curves = thermal_curves_input();
   std::vector<double> temperatures = input.numbers(curves.values_key);
   if (temperatures.size() < 2 || std::adjacent_find(temperatures.begin(), temperatures.end(),
                                                     std::greater_equal<>()) != temperatures.end())
@@ -54,9 +54,10 @@ std::shared_ptr<const ThermalFactor> make_curves(const TypeInput &input) {
 
 ThermalFactorType thermal_curves_type() {
   return {"curves", "curves of hardening at several temperatures, over the first one",
-          curves_input().parameters("At least two temperatures that increase strictly, one for each curve. "
-                                    "The factor is 1 up to the first one, and constant beyond the last one."),
-          &make_curves};
+          thermal_curves_input().parameters(
+              "At least two temperatures that increase strictly, one for each curve. "
+              "The factor is 1 up to the first one, and constant beyond the last one."),
+          &make_thermal_curves};
 }
 
 } // namespace billet

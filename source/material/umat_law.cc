@@ -16,7 +16,7 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr unsigned int rows[6] = {0, 1, 2, 0, 0, 1}, columns[6] = {0, 1, 2, 1, 2, 2};
+constexpr unsigned int umat_rows[6] = {0, 1, 2, 0, 0, 1}, umat_columns[6] = {0, 1, 2, 1, 2, 2};
 
 /// Writes a strain with engineering shears.
 void write_strain(const SymmetricTensor<2, 3> &tensor, double *numbers) {
@@ -35,7 +35,7 @@ SpatialModuli moduli_of_jaumann(const SpatialModuli &C, const double J, const Sy
   SpatialModuli c;
   for (unsigned int r = 0; r < 6; ++r)
     for (unsigned int s = 0; s < 6; ++s) {
-      const unsigned int i = rows[r], j = columns[r], k = rows[s], l = columns[s];
+      const unsigned int i = umat_rows[r], j = umat_columns[r], k = umat_rows[s], l = umat_columns[s];
       const double H = 0.5 * ((i == k ? tau[j][l] : 0.) + (i == l ? tau[j][k] : 0.) +
                               (j == k ? tau[i][l] : 0.) + (j == l ? tau[i][k] : 0.));
       c[r][s] = J * C[r][s] - H;

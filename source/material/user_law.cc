@@ -3,6 +3,7 @@
 
 #include "billet/material/guarded_call.h"
 #include "billet/material/hencky.h"
+#include "billet/material/hypoelastic.h"
 #include "billet/material/log_map.h"
 #include "billet/material/state_fields.h"
 
@@ -44,10 +45,6 @@ Tensor<2, 3> read_gradient(const double *numbers) {
 void write_gradient(const Tensor<2, 3> &F, double *numbers) {
   for (unsigned int i = 0; i < 9; ++i)
     numbers[i] = F[i / 3][i % 3];
-}
-
-SymmetricTensor<2, 3> turn(const Tensor<2, 3> &R, const SymmetricTensor<2, 3> &s) {
-  return dealii::symmetrize(R * static_cast<Tensor<2, 3>>(s) * dealii::transpose(R));
 }
 
 SymmetricTensor<2, 3> multiply(const SpatialModuli &C, const SymmetricTensor<2, 3> &d) {

@@ -126,7 +126,7 @@ UserLawSettings read_settings(const TypeInput &input) {
 
 /// Makes a law, which calls its subroutine. Refuses the library if that fails.
 template <class Law, class... Arguments>
-SharedLaw make_law(const TypeInput &input, Arguments &&...arguments) {
+SharedLaw make_user_law(const TypeInput &input, Arguments &&...arguments) {
   SharedLaw law;
   try {
     law = std::make_shared<const Law>(std::forward<Arguments>(arguments)...);
@@ -140,14 +140,14 @@ SharedLaw make_umat(const TypeInput &input) {
   UserLawSettings settings = read_settings(input);
   auto *const function =
       reinterpret_cast<UmatFunction *>(load_function(input, "umat", settings)); // POSIX allows this
-  return make_law<UmatLaw>(input, function, std::move(settings));
+  return make_user_law<UmatLaw>(input, function, std::move(settings));
 }
 
 SharedLaw make_vumat(const TypeInput &input) {
   UserLawSettings settings = read_settings(input);
   const double density = input.positive("Density"); // its energies are those of a mass
   auto *const function = reinterpret_cast<VumatFunction *>(load_function(input, "vumat", settings));
-  return make_law<VumatLaw>(input, function, std::move(settings), density);
+  return make_user_law<VumatLaw>(input, function, std::move(settings), density);
 }
 
 } // namespace

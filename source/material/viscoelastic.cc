@@ -17,14 +17,14 @@ double PronySeries::lasting_share() const { return 1. - std::accumulate(moduli.b
 
 namespace {
 
-constexpr const char *moduli_key = "Prony moduli", *times_key = "Prony times";
+constexpr const char *prony_moduli_key = "Prony moduli", *times_key = "Prony times";
 
 } // namespace
 
 std::vector<TypeParameter> prony_parameters() {
   using Kind = TypeParameter::Kind;
   return {
-      {moduli_key, "", Kind::text,
+      {prony_moduli_key, "", Kind::text,
        "g of each term of Prony's series, separated by commas. They are the shares of the instantaneous "
        "isochoric stress that relax, each > 0 and together < 1. Empty: no viscosity."},
       {times_key, "", Kind::text,
@@ -34,16 +34,16 @@ std::vector<TypeParameter> prony_parameters() {
 
 PronySeries read_prony_series(const TypeInput &input) {
   PronySeries series;
-  const bool has_moduli = input.is_set(moduli_key), has_times = input.is_set(times_key);
+  const bool has_moduli = input.is_set(prony_moduli_key), has_times = input.is_set(times_key);
   if (!has_moduli && !has_times)
     return series;
   if (!has_moduli)
-    input.reject(moduli_key, "as many numbers as 'Prony times'");
-  series.moduli = input.numbers(moduli_key);
+    input.reject(prony_moduli_key, "as many numbers as 'Prony times'");
+  series.moduli = input.numbers(prony_moduli_key);
   const auto is_positive = [](const double number) { return number > 0.; };
   if (series.moduli.empty() || !std::all_of(series.moduli.begin(), series.moduli.end(), is_positive) ||
       !(series.lasting_share() > 0.))
-    input.reject(moduli_key, "numbers > 0 whose sum is < 1");
+    input.reject(prony_moduli_key, "numbers > 0 whose sum is < 1");
   if (has_times)
     series.times = input.numbers(times_key);
   if (series.times.size() != series.moduli.size() ||

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/material/vumat_law.h"
 
+#include "billet/material/hypoelastic.h"
 #include "billet/material/umat_law.h"
 
 #include <algorithm>
@@ -20,7 +21,8 @@ constexpr double difference = 1e-6; // of strains, for the tangent
 /// Places of a VUMAT's components among ours.
 constexpr unsigned int place_of[6] = {0, 1, 2, 3, 5, 4};
 /// Rows and columns of a VUMAT's deformation gradient.
-constexpr unsigned int rows[9] = {0, 1, 2, 0, 1, 2, 1, 2, 0}, columns[9] = {0, 1, 2, 1, 2, 0, 0, 1, 2};
+constexpr unsigned int vumat_rows[9] = {0, 1, 2, 0, 1, 2, 1, 2, 0},
+                       vumat_columns[9] = {0, 1, 2, 1, 2, 0, 0, 1, 2};
 
 /// F = R U, by Newton's method for the orthogonal factor (Higham 1986).
 struct Polar {
@@ -125,8 +127,8 @@ public:
     write(stress_old, p, stress);
     write(stress_new, p, stress);
     for (unsigned int i = 0; i < 9; ++i) {
-      arrays_[gradient_old][i * n_ + p] = F_n[rows[i]][columns[i]];
-      arrays_[gradient_new][i * n_ + p] = F[rows[i]][columns[i]];
+      arrays_[gradient_old][i * n_ + p] = F_n[vumat_rows[i]][vumat_columns[i]];
+      arrays_[gradient_new][i * n_ + p] = F[vumat_rows[i]][vumat_columns[i]];
     }
     density_[p] = law_.density_ / dealii::determinant(F);
   }

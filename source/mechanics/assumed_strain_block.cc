@@ -59,15 +59,15 @@ PlaneFactors find_plane_factors(const ElasticModuli &elastic, const ElementFormu
           of_displacements.rest / share};
 }
 
-constexpr ElementKind kind = {"assumed strain",
-                              &make_block,
-                              /*is_stabilised=*/false,
-                              /*has_layers=*/true,
-                              LaneElement::assumed_strain,
-                              &compare,
-                              /*may_lock_in_bending=*/false,
-                              /*may_be_soft=*/false,
-                              &find_plane_factors};
+constexpr ElementKind assumed_strain_kind = {"assumed strain",
+                                             &make_block,
+                                             /*is_stabilised=*/false,
+                                             /*has_layers=*/true,
+                                             LaneElement::assumed_strain,
+                                             &compare,
+                                             /*may_lock_in_bending=*/false,
+                                             /*may_be_soft=*/false,
+                                             &find_plane_factors};
 
 const std::string points_key = "Points through thickness", direction_key = "Thickness direction";
 
@@ -107,7 +107,7 @@ void read_layers(const TypeInput &input, ElementChoice &choice) {
 
 } // namespace
 
-const BrickElement BrickElement::assumed_strain(kind);
+const BrickElement BrickElement::assumed_strain(assumed_strain_kind);
 
 ElementType assumed_strain_type() {
   return make_element_type(

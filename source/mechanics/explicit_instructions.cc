@@ -45,7 +45,7 @@ Tables find(const InstructionSet instructions) {
   return {};
 }
 
-Tables require(const InstructionSet instructions) {
+Tables require_support(const InstructionSet instructions) {
   const Tables tables = find(instructions);
   if (tables.in_double == nullptr)
     throw std::invalid_argument(
@@ -65,11 +65,11 @@ InstructionSet best_instruction_set() {
 bool is_available(const InstructionSet instructions) { return find(instructions).in_double != nullptr; }
 
 template <> const KernelTable<double> &find_kernels<double>(const InstructionSet instructions) {
-  return *require(instructions).in_double;
+  return *require_support(instructions).in_double;
 }
 
 template <> const KernelTable<float> &find_kernels<float>(const InstructionSet instructions) {
-  return *require(instructions).in_float;
+  return *require_support(instructions).in_float;
 }
 
 } // namespace billet

@@ -9,18 +9,18 @@ ElementType mean_dilatation_type();
 
 namespace {
 
-constexpr ElementKind kind = {"mean dilatation",
-                              &make_law_block<MeanDilatationElement>,
-                              false,
-                              false,
-                              LaneElement::mean_dilatation,
-                              &compare_points<MeanDilatationElement>,
-                              /*may_lock_in_bending=*/true,
-                              /*may_be_soft=*/true};
+constexpr ElementKind mean_dilatation_kind = {"mean dilatation",
+                                              &make_law_block<MeanDilatationElement>,
+                                              false,
+                                              false,
+                                              LaneElement::mean_dilatation,
+                                              &compare_points<MeanDilatationElement>,
+                                              /*may_lock_in_bending=*/true,
+                                              /*may_be_soft=*/true};
 
 } // namespace
 
-const BrickElement BrickElement::mean_dilatation(kind);
+const BrickElement BrickElement::mean_dilatation(mean_dilatation_kind);
 
 ElementType mean_dilatation_type() {
   return make_element_type(BrickElement::mean_dilatation,

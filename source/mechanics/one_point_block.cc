@@ -14,12 +14,12 @@ bool compare(const ElementComparison &, const ComparedBrick &brick, ElementEnerg
   return true;
 }
 
-constexpr ElementKind kind = {"one point", &make_law_block<OnePointElement>, true,
-                              false,       LaneElement::one_point,           &compare};
+constexpr ElementKind one_point_kind = {"one point", &make_law_block<OnePointElement>, true,
+                                        false,       LaneElement::one_point,           &compare};
 
 } // namespace
 
-const BrickElement BrickElement::one_point(kind);
+const BrickElement BrickElement::one_point(one_point_kind);
 
 ElementType one_point_type() {
   return make_element_type(BrickElement::one_point, "one point with hourglass stabilisation, the cheapest");

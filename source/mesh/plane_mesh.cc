@@ -60,7 +60,7 @@ double size_in_plane(const MeshFile &mesh) {
 namespace {
 
 /// Makes the groups of quadrilaterals volumes of the layer.
-void find_volumes(MeshFile &mesh) {
+void find_plane_volumes(MeshFile &mesh) {
   std::map<std::array<unsigned int, 4>, unsigned int> index;
   for (unsigned int i = 0; i < mesh.plane.quadrilaterals.size(); ++i) {
     auto nodes = mesh.plane.quadrilaterals[i].nodes;
@@ -106,7 +106,7 @@ void extrude_plane(MeshFile &mesh) {
     }
     mesh.hexahedra.push_back(hexahedron);
   }
-  find_volumes(mesh);
+  find_plane_volumes(mesh);
   mesh.faces.clear(); // groups of quadrilaterals are the body, not its boundary
   for (const GroupedEdge &edge : mesh.plane.edges)
     mesh.faces.push_back({{edge.nodes[0], edge.nodes[1], edge.nodes[1] + n, edge.nodes[0] + n}, edge.group});

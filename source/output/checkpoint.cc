@@ -41,16 +41,16 @@ const std::string magic = "billet checkpoint";
 static_assert(sizeof(hid_t) <= sizeof(long), "identifiers are kept as long");
 
 /// Owner of an HDF5 identifier; closes it.
-class Handle {
+class CheckpointHandle {
 public:
   using Close = herr_t (*)(hid_t);
-  Handle(const hid_t id, const Close close) : id_(id), close_(close) {}
-  ~Handle() {
+  CheckpointHandle(const hid_t id, const Close close) : id_(id), close_(close) {}
+  ~CheckpointHandle() {
     if (id_ >= 0)
       close_(id_);
   }
-  Handle(const Handle &) = delete;
-  Handle &operator=(const Handle &) = delete;
+  CheckpointHandle(const CheckpointHandle &) = delete;
+  CheckpointHandle &operator=(const CheckpointHandle &) = delete;
 
   bool is_open() const { return id_ >= 0; }
   hid_t id() const { return id_; }
@@ -116,7 +116,7 @@ CheckpointWriter::CheckpointWriter(MPI_Comm communicator, std::string file_name)
     silence_hdf5();
     std::ofstream(name_ + ".tmp", std::ios::trunc).close();
     if (reserve(0)) {
-      const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+      const CheckpointHandle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
       H5Pset_userblock(creation.id(), header_size);
       file_ = H5Fcreate((name_ + ".tmp").c_str(), H5F_ACC_TRUNC, creation.id(), H5P_DEFAULT);
       if (check(file_ >= 0, "cannot be made"))
@@ -162,7 +162,8 @@ bool CheckpointWriter::check(const bool success, const std::string &what) {
 void CheckpointWriter::enter(const std::string &name) {
   group_ += name + "/";
   if (is_first_ && failure_.empty()) {
-    const Handle made(H5Gcreate2(file_, group_.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    const CheckpointHandle made(H5Gcreate2(file_, group_.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                                H5Gclose);
     check(made.is_open(), "cannot be written");
   }
 }
@@ -177,8 +178,8 @@ void CheckpointWriter::write_array(const std::string &name, const long type, con
   if (!reserve(n_rows * width * H5Tget_size(type)))
     return;
   const std::array<hsize_t, 2> size{n_rows, width};
-  const Handle space(H5Screate_simple(2, size.data(), nullptr), H5Sclose);
-  const Handle set(
+  const CheckpointHandle space(H5Screate_simple(2, size.data(), nullptr), H5Sclose);
+  const CheckpointHandle set(
       H5Dcreate2(file_, (group_ + name).c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
       H5Dclose);
   if (check(set.is_open(), "cannot be written") && values != nullptr && n_rows * width > 0)
@@ -213,10 +214,10 @@ void CheckpointWriter::write_rows(const std::string &name, const std::size_t wid
                        const std::size_t n, const std::size_t columns, const void *data) {
     if (!failure_.empty())
       return;
-    const Handle set(H5Dopen2(file_, (group_ + what).c_str(), H5P_DEFAULT), H5Dclose);
-    const Handle space(H5Dget_space(set.id()), H5Sclose);
+    const CheckpointHandle set(H5Dopen2(file_, (group_ + what).c_str(), H5P_DEFAULT), H5Dclose);
+    const CheckpointHandle space(H5Dget_space(set.id()), H5Sclose);
     const std::array<hsize_t, 2> start{begin, 0}, count{n, columns};
-    const Handle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
+    const CheckpointHandle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
     check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >=
                   0 &&
               H5Dwrite(set.id(), type, memory.id(), space.id(), H5P_DEFAULT, data) >= 0,
@@ -372,7 +373,7 @@ namespace {
 /// Returns the numbers of rows and columns of an array. An array that says to have more than the
 /// file holds is refused: it would take the memory of the machine.
 std::array<hsize_t, 2> extent_of(const hid_t set, const std::string &name) {
-  const Handle space(H5Dget_space(set), H5Sclose), type(H5Dget_type(set), H5Tclose);
+  const CheckpointHandle space(H5Dget_space(set), H5Sclose), type(H5Dget_type(set), H5Tclose);
   std::array<hsize_t, 2> size{};
   if (H5Sget_simple_extent_ndims(space.id()) != 2 ||
       H5Sget_simple_extent_dims(space.id(), size.data(), nullptr) != 2)
@@ -384,7 +385,7 @@ std::array<hsize_t, 2> extent_of(const hid_t set, const std::string &name) {
 }
 
 /// Opens an array. Throws InputError if there is none.
-Handle open_array(const hid_t file, const std::string &name) {
+CheckpointHandle open_array(const hid_t file, const std::string &name) {
   const hid_t set = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
   if (set < 0)
     throw InputError("it has no '" + name + "'");
@@ -393,7 +394,7 @@ Handle open_array(const hid_t file, const std::string &name) {
 
 /// Returns all values of an array.
 template <class T> std::vector<T> read_all(const hid_t file, const std::string &name, const hid_t type) {
-  const Handle set = open_array(file, name);
+  const CheckpointHandle set = open_array(file, name);
   const auto [n_rows, n_columns] = extent_of(set.id(), name);
   std::vector<T> values(n_rows * n_columns);
   if (!values.empty() && H5Dread(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
@@ -425,7 +426,7 @@ std::vector<double> CheckpointReader::read_rows(const std::string &name, const s
   fail_together(communicator_, [&] {
     const std::string path = group_ + name;
     const auto all_keys = read_all<std::uint64_t>(file_, path + "/keys", H5T_NATIVE_UINT64);
-    const Handle set = open_array(file_, path + "/rows"), space(H5Dget_space(set.id()), H5Sclose);
+    const CheckpointHandle set = open_array(file_, path + "/rows"), space(H5Dget_space(set.id()), H5Sclose);
     const std::array<hsize_t, 2> size = extent_of(set.id(), path);
     if (size[0] != all_keys.size())
       throw InputError("its '" + path + "' has " + std::to_string(size[0]) + " rows for " +
@@ -453,7 +454,7 @@ std::vector<double> CheckpointReader::read_rows(const std::string &name, const s
         continue;
       part.resize(n * width);
       const std::array<hsize_t, 2> start{begin, 0}, count{n, width};
-      const Handle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
+      const CheckpointHandle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
       if (H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0 ||
           H5Dread(set.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, part.data()) < 0)
         throw InputError("its '" + path + "' cannot be read");

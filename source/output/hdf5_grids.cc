@@ -13,13 +13,13 @@ namespace billet {
 namespace {
 
 /// Owner of an HDF5 identifier; closes it.
-class Handle {
+class GridHandle {
 public:
   using Close = herr_t (*)(hid_t);
-  Handle(const hid_t id, const Close close) : id_(id), close_(close) {}
-  ~Handle() { close(); }
-  Handle(const Handle &) = delete;
-  Handle &operator=(const Handle &) = delete;
+  GridHandle(const hid_t id, const Close close) : id_(id), close_(close) {}
+  ~GridHandle() { close(); }
+  GridHandle(const GridHandle &) = delete;
+  GridHandle &operator=(const GridHandle &) = delete;
 
   hid_t id() const { return id_; }
   bool is_open() const { return id_ >= 0; }
@@ -87,8 +87,8 @@ public:
   void add_group(const std::string &group) {
     if (!is_good_)
       return;
-    const Handle handle(H5Gcreate2(file_.id(), group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                        H5Gclose);
+    const GridHandle handle(H5Gcreate2(file_.id(), group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                            H5Gclose);
     is_good_ = handle.is_open();
   }
 
@@ -124,11 +124,11 @@ private:
                   const Extent extent) {
     if (!is_good_)
       return;
-    const Handle space(H5Screate_simple(2, extent.data(), nullptr), H5Sclose);
-    const Handle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
-    const Handle data(H5Dcreate2(file_.id(), path.c_str(), file_type(field.type), space.id(), H5P_DEFAULT,
-                                 H5P_DEFAULT, H5P_DEFAULT),
-                      H5Dclose);
+    const GridHandle space(H5Screate_simple(2, extent.data(), nullptr), H5Sclose);
+    const GridHandle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
+    const GridHandle data(H5Dcreate2(file_.id(), path.c_str(), file_type(field.type), space.id(), H5P_DEFAULT,
+                                     H5P_DEFAULT, H5P_DEFAULT),
+                          H5Dclose);
     if (count[0] == 0) {
       H5Sselect_none(space.id());
       H5Sselect_none(memory.id());
@@ -140,7 +140,7 @@ private:
 
   MPI_Comm communicator_;
   std::string name_;
-  Handle access_, transfer_, file_;
+  GridHandle access_, transfer_, file_;
   bool is_good_;
 };
 

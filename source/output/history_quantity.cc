@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/history_quantity.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace billet {
@@ -59,6 +60,17 @@ HistoryQuantities &history_quantities() {
     return all;
   }();
   return quantities;
+}
+
+std::string column_name(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](const char c) { return c == ',' || c == '"'; }, '_');
+  return name;
+}
+
+void add_vector(const dealii::Tensor<1, 3> &vector, std::vector<double> &values) {
+  for (unsigned int c = 0; c < 3; ++c)
+    values.push_back(vector[c]);
 }
 
 } // namespace billet

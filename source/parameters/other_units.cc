@@ -21,8 +21,9 @@ namespace billet::parameters {
 namespace {
 
 /// Other units, in parts of the first ones: numbers of lengths become so many times as large.
-constexpr double length = 1e3, mass = 1e-3, duration = 1e3, temperature = 1.8,
-                 stress = mass / (length * duration * duration), energy = stress * length * length * length;
+constexpr double length_factor = 1e3, mass = 1e-3, duration = 1e3, temperature = 1.8,
+                 stress = mass / (length_factor * duration * duration),
+                 energy = stress * length_factor * length_factor * length_factor;
 
 /// Unit and default of a parameter.
 struct Dimensional {
@@ -48,9 +49,9 @@ std::map<std::string, Dimensional> dimensional_parameters() {
 
 /// Returns the factor of numbers with this unit. Throws std::invalid_argument if it is unknown.
 double factor_of(const std::string &unit) {
-  static const std::map<std::string, double> known = {{"length", length}, {"mass", mass},
-                                                      {"time", duration}, {"temperature", temperature},
-                                                      {"stress", stress}, {"energy", energy}};
+  static const std::map<std::string, double> known = {{"length", length_factor}, {"mass", mass},
+                                                      {"time", duration},        {"temperature", temperature},
+                                                      {"stress", stress},        {"energy", energy}};
   if (unit == "-")
     return 1.;
   static const std::regex name("[A-Za-z_]+");

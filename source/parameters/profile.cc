@@ -327,8 +327,8 @@ std::string between(const std::string &key, const std::string &value, const Scen
   return value;
 }
 
-[[noreturn]] void refuse(const SceneFile &file, const Path &path, const std::string &key,
-                         const std::string &allowed) {
+[[noreturn]] void refuse_profile(const SceneFile &file, const Path &path, const std::string &key,
+                                 const std::string &allowed) {
   throw InputError(file.where(path, key) + ": '" + key + "'" +
                    (path.empty() ? "" : " in '" + join(path) + "'") + " is '" + file.value(path, key, "") +
                    "'; allowed is " + allowed);
@@ -340,14 +340,14 @@ void check_contradictions(const SceneFile &file, const double target) {
                                                              {{"Solver"}, "Force tolerance"},
                                                              {{"Implicit dynamics"}, "Error tolerance"}};
   if (file.is_set({}, profile_key))
-    refuse(file, {}, profile_key, "no value" + reason);
+    refuse_profile(file, {}, profile_key, "no value" + reason);
   if (file.value({"Time stepping"}, "Step control", "automatic") == "fixed")
-    refuse(file, {"Time stepping"}, "Step control", "automatic" + reason);
+    refuse_profile(file, {"Time stepping"}, "Step control", "automatic" + reason);
   for (const auto &[path, key] : limited) {
     constexpr double part_of_residuals = 0.3; // larger residuals hide what the steps do
     const double maximum = key == "Force tolerance" ? part_of_residuals * target : target;
     if (file.is_set(path, key) && number_in(file.value(path, key, ""), 0.) > maximum)
-      refuse(file, path, key, "a number not above " + print(maximum) + ", or none" + reason);
+      refuse_profile(file, path, key, "a number not above " + print(maximum) + ", or none" + reason);
   }
 }
 
@@ -360,19 +360,20 @@ void check_what_is_estimated(const SceneFile &file, const double target) {
   const auto is_set = [&](const Path &pair) { return file.is_set(pair, tolerance); };
   const auto one = std::find_if(pairs.begin(), pairs.end(), is_set);
   if (!is_explicit && one != pairs.end() && !std::all_of(pairs.begin(), pairs.end(), is_set))
-    refuse(file, *one, tolerance,
-           std::string("a number in every contact pair or in none, since there is a '") + target_key +
-               "', which chooses those of all pairs or of none");
+    refuse_profile(file, *one, tolerance,
+                   std::string("a number in every contact pair or in none, since there is a '") + target_key +
+                       "', which chooses those of all pairs or of none");
   const Path dynamics = {"Explicit dynamics"};
   if (!is_explicit)
     return;
   if (number_in(file.value(dynamics, "Mass scaling step", "0"), 0.) > 0.)
-    refuse(file, dynamics, "Mass scaling step",
-           std::string("none beside a '") + target_key + "': no estimate covers the effect of added mass");
+    refuse_profile(file, dynamics, "Mass scaling step",
+                   std::string("none beside a '") + target_key +
+                       "': no estimate covers the effect of added mass");
   if (target < min_target_of_float && file.value(dynamics, "Number type", "double") == "float")
-    refuse(file, dynamics, "Number type",
-           std::string("double beside a '") + target_key + "' below " + print(min_target_of_float) +
-               ": single precision limits the accuracy to 1e-6 of the forces");
+    refuse_profile(file, dynamics, "Number type",
+                   std::string("double beside a '") + target_key + "' below " + print(min_target_of_float) +
+                       ": single precision limits the accuracy to 1e-6 of the forces");
 }
 
 } // namespace
@@ -440,16 +441,16 @@ MeshTarget read_mesh_target(const SceneFile &file) {
   const double target = read_whole_target(file);
   if (!includes_mesh(file)) {
     if (file.is_set({}, finest_key))
-      refuse(file, {}, finest_key,
-             std::string("no value without '") + target_of_key + " = " + of_everything + "'");
+      refuse_profile(file, {}, finest_key,
+                     std::string("no value without '") + target_of_key + " = " + of_everything + "'");
     return {};
   }
   if (!(target > 0.))
-    refuse(file, {}, target_of_key, std::string("no value without a '") + target_key + "'");
+    refuse_profile(file, {}, target_of_key, std::string("no value without a '") + target_key + "'");
   constexpr double most = 10.;
   const double finest = number_in(file.value({}, finest_key, "1"), 1.);
   if (!(finest <= most))
-    refuse(file, {}, finest_key, "a whole number from 0 to 10");
+    refuse_profile(file, {}, finest_key, "a whole number from 0 to 10");
   return {part_of_mesh * target, static_cast<unsigned int>(finest)};
 }
 

@@ -26,7 +26,7 @@ constexpr unsigned int steps_between_estimates = 400;
 /// Number of intervals of (W4) in a run: waves pass the bodies meanwhile.
 constexpr double n_intervals = 20.;
 
-struct Limits {
+struct ExplicitRunLimits {
   /// Number of checks of stability in a run: each costs one to a few steps.
   static constexpr double n_checks = 100.;
   /// Added mass over the mass, and kinetic over internal energy, above which mass scaling changes
@@ -46,7 +46,7 @@ Diagnostic describe_mass_scaling(const ExplicitDynamics &problem) {
 /// Returns a warning at the end of a run if the added mass changes the motion.
 DiagnosticList check_mass_scaling(const ExplicitDynamics &problem, const RunReview &review) {
   const double added = problem.added_mass() / problem.mass(), kinetic = review.kinetic_part();
-  if (!(added > Limits::much_mass && kinetic > Limits::fast))
+  if (!(added > ExplicitRunLimits::much_mass && kinetic > ExplicitRunLimits::fast))
     return {};
   std::ostringstream text;
   text.precision(3);
@@ -270,7 +270,7 @@ void ExplicitRun::check_stability(RunOutput &output) {
   problem_.update_state();
   output.report(stability_.check(problem_.state()));
   output.report(softening_.check(problem_));
-  last_.next_check = problem_.time() + stops_.end() / Limits::n_checks;
+  last_.next_check = problem_.time() + stops_.end() / ExplicitRunLimits::n_checks;
 }
 
 std::string ExplicitRun::advise_on_law(RunOutput &output) {

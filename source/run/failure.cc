@@ -14,7 +14,7 @@ namespace billet {
 
 namespace {
 
-struct Limits {
+struct FailureLimits {
   /// Poisson ratio above which few significant digits are left.
   static constexpr double incompressible = 0.49995;
   /// Part of its value at the end with which a load begins, above which it is sudden.
@@ -28,7 +28,7 @@ struct Limits {
 /// digits.
 std::string describe_incompressibility(const parameters::Scene &parameters) {
   const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [](const auto &b) {
-    return b.material.law->elastic().poisson_ratio() > Limits::incompressible;
+    return b.material.law->elastic().poisson_ratio() > FailureLimits::incompressible;
   });
   if (body == parameters.bodies.end())
     return "";
@@ -63,7 +63,7 @@ bool is_sudden_at(const double t, const double end, const AppliedLoad &load) {
   return begins && !load.load.is_spring() &&
          std::any_of(load.expressions.begin(), load.expressions.end(), [&](const Expression &expression) {
            const double first = std::abs(expression.value(t, somewhere));
-           return first > 0. && first >= Limits::sudden * std::abs(expression.value(end, somewhere));
+           return first > 0. && first >= FailureLimits::sudden * std::abs(expression.value(end, somewhere));
          });
 }
 
@@ -208,7 +208,7 @@ bool has_inexact_dissipation(const Scene &scene, const Discretization &discretiz
         maximum = std::max(maximum,
                            dealii::deviator(summary.cauchy_stress).norm() / (2. * body.law->elastic().shear));
   }
-  return dealii::Utilities::MPI::max(maximum, discretization.communicator()) > Limits::large_strain;
+  return dealii::Utilities::MPI::max(maximum, discretization.communicator()) > FailureLimits::large_strain;
 }
 
 Diagnostic explain_failed_step(const Scene &scene, const StepReport &report, const double from,

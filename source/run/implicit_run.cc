@@ -15,7 +15,7 @@ namespace billet {
 
 namespace {
 
-struct Limits {
+struct ImplicitRunLimits {
   /// Number of cuts in a row after which the step starts from low penalties.
   static constexpr unsigned int max_cuts_in_a_row = 4;
 };
@@ -157,7 +157,7 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
   }
   // Steps that fail whatever their length need another start, as do those that cannot be cut.
   if (!newton.is_lost_in_round_off && !newton.is_explained() &&
-      (!may_continue || ++n_failed_ >= Limits::max_cuts_in_a_row))
+      (!may_continue || ++n_failed_ >= ImplicitRunLimits::max_cuts_in_a_row))
     may_continue = problem_.take_low_penalties() || may_continue;
   if (may_continue)
     return;

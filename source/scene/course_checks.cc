@@ -19,14 +19,14 @@ const DiagnosticKind unfinished_course(
     "Set a later 'End time', or shorter times");
 
 /// Collects what is not complete at the end time.
-class Course {
+class ToolCourse {
 public:
   /// Part of the scene, such as a pair and its name.
   struct Part {
     std::string kind, name;
   };
 
-  explicit Course(const double end) : end_(end) {}
+  explicit ToolCourse(const double end) : end_(end) {}
 
   bool is_after_end(const double time) const { return times::is_after(time, end_); }
   /// Something that begins at a time.
@@ -74,7 +74,7 @@ private:
 } // namespace
 
 DiagnosticList check_course(const Scene &scene) {
-  Course course(scene.parameters().time_stepping.end_time);
+  ToolCourse course(scene.parameters().time_stepping.end_time);
   for (const Tool &tool : scene.tools())
     course.fade({"tool", tool.name()}, "the tool after its removal", tool.removal_time(),
                 tool.release_time());
@@ -86,7 +86,7 @@ DiagnosticList check_course(const Scene &scene) {
   for (const BodyPair &pair : scene.body_pairs())
     add_ramp(pair, pair.overlap);
   for (const parameters::Body &body : scene.parameters().bodies) {
-    const Course::Part where{"body", body.name};
+    const ToolCourse::Part where{"body", body.name};
     const auto add = [&](const auto &of, const std::string &what) {
       course.begin(where, "The " + what, of.from);
       course.fade(where, "the " + what, of.until, of.fade_time.value_or(0.));

@@ -131,8 +131,8 @@ private:
 
 /// Calls visit(face) for this rank's boundary faces of a body with these ids.
 template <class Visit>
-void for_each_face(const Triangulation<3> &mesh, const std::size_t body,
-                   const std::vector<dealii::types::boundary_id> &ids, const Visit &visit) {
+void for_each_section_face(const Triangulation<3> &mesh, const std::size_t body,
+                           const std::vector<dealii::types::boundary_id> &ids, const Visit &visit) {
   for (const auto &cell : mesh.active_cell_iterators())
     if (cell->is_locally_owned() && cell->material_id() == body)
       for (const auto &face : cell->face_iterators())
@@ -145,7 +145,7 @@ void for_each_face(const Triangulation<3> &mesh, const std::size_t body,
 std::vector<dealii::Point<3>> collect_points(const ContactPair &pair, const Triangulation<3> &mesh) {
   std::vector<bool> is_taken(mesh.n_vertices(), false);
   std::vector<dealii::Point<3>> points;
-  for_each_face(mesh, pair.body, pair.boundary_ids, [&](const auto &face) {
+  for_each_section_face(mesh, pair.body, pair.boundary_ids, [&](const auto &face) {
     points.push_back(face->center());
     for (const unsigned int v : face->vertex_indices())
       if (!is_taken[face->vertex_index(v)]) {
@@ -249,7 +249,7 @@ private:
   /// Pressures turn with the faces.
   void add(const FaceLoad & /*action*/, const double /*time*/, LoadParts & /*parts*/) const {}
   void add(const NodalLoad &action, const double time, LoadParts &parts) const {
-    for_each_face(mesh_, body_, load_.boundary_ids, [&](const auto &face) {
+    for_each_section_face(mesh_, body_, load_.boundary_ids, [&](const auto &face) {
       const dealii::Point<3> centre = face->center();
       const std::vector<double> at_face = values(time, centre);
       const Tensor<1, 3> force = force_at(action, centre, at_face);

@@ -13,7 +13,7 @@ namespace billet {
 namespace {
 
 /// When losses are reported, and which.
-struct Limits {
+struct ContactLossesLimits {
   /// Part of the largest energy above which losses are reported: they then show in the motion.
   static constexpr double much = 0.05;
   /// Growth since the last message after which they are reported again, so that messages stay few.
@@ -60,7 +60,7 @@ DiagnosticList ContactLosses::watch(const double max_energy, const double time) 
   if (!(max_energy > 0.))
     return {};
   const double part = total() / max_energy;
-  if (part <= std::max(Limits::much, Limits::again * reported_))
+  if (part <= std::max(ContactLossesLimits::much, ContactLossesLimits::again * reported_))
     return {};
   reported_ = part;
   std::array<Cause, n_causes> order{};
@@ -72,7 +72,7 @@ DiagnosticList ContactLosses::watch(const double max_energy, const double time) 
   what.precision(2);
   what << "Contact removes " << 100. * part << " % of the maximum energy so far";
   for (const Cause cause : order)
-    if (cause == order[0] || energies_[cause] > Limits::small * total())
+    if (cause == order[0] || energies_[cause] > ContactLossesLimits::small * total())
       what << (cause == order[0] ? ": " : "; ") << 100. * energies_[cause] / max_energy << " % by "
            << describe(cause).name;
   return {Diagnostic(diagnostic::contact_dissipates, what.str())

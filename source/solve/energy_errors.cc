@@ -11,7 +11,7 @@ namespace {
 
 /// Constants of error control by energies; factors unless they say otherwise. See "Dynamics" under
 /// "Target error" in doc/theory.md.
-struct Factors {
+struct EnergyErrorFactors {
   /// Part of all energy below which energies that are not carried count as zero.
   static constexpr double rounding = 1e-9;
   /// Error by penetration over the energy E_c in springs: 2 E_c by the delay, and E_c that they
@@ -33,18 +33,19 @@ struct Factors {
 void EnergyErrors::add(const double time, const EnergyLedger &energies, const double carried) {
   Usage::count(Capability::error_control, 1);
   const double whole = std::max(energies.total(), std::abs(energies.initial)), at_stake = whole - carried;
-  const bool is_something = at_stake > Factors::rounding * whole;
+  const bool is_something = at_stake > EnergyErrorFactors::rounding * whole;
   const double drift = is_something ? std::abs(energies.drift()) + std::abs(energies.numerical) : 0.,
                contact = is_something ? std::abs(energies.contact) : 0., total = is_something ? at_stake : 0.;
   if (has_begun_) {
     const double half = 0.5 * (time - time_);
     drift_ += half * (last_drift_ + drift);
-    penetration_ += half * Factors::carried_on * Factors::late_and_stored * (last_contact_ + contact);
+    penetration_ += half * EnergyErrorFactors::carried_on * EnergyErrorFactors::late_and_stored *
+                    (last_contact_ + contact);
     total_ += half * (last_total_ + total);
   }
-  if (has_begun_ && total > 0. && drift > Factors::matters * tolerance_ * total &&
-      drift > Factors::growth * last_drift_)
-    step_factor_ = std::max(Factors::min_step, Factors::shorter * step_factor_);
+  if (has_begun_ && total > 0. && drift > EnergyErrorFactors::matters * tolerance_ * total &&
+      drift > EnergyErrorFactors::growth * last_drift_)
+    step_factor_ = std::max(EnergyErrorFactors::min_step, EnergyErrorFactors::shorter * step_factor_);
   has_begun_ = true;
   time_ = time;
   last_drift_ = drift;

@@ -16,7 +16,7 @@ namespace billet {
 
 namespace {
 
-struct Limits {
+struct ErrorWatchLimits {
   /// A residual of the norm r sums up to a resultant of at most √N r over N nodes. Contact forces
   /// of the norm f on N^⅔ nodes of a surface have a resultant of about √(N^⅔) f. Relative residuals
   /// of resultants are thus those of nodal forces times N to this power, 1/2 − 1/3.
@@ -70,7 +70,7 @@ ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization,
     : problem_(problem),
       controls_(1, ErrorControl(tolerances_of(scene), scene.parameters().time_stepping.end_time)),
       residual_factor_(
-          std::pow(static_cast<double>(discretization.n_global_elements()), Limits::power_of_sums)),
+          std::pow(static_cast<double>(discretization.n_global_elements()), ErrorWatchLimits::power_of_sums)),
       end_time_(scene.parameters().time_stepping.end_time), measures_steps_(depends_on_steps(scene)),
       measures_penetration_(scene.parameters().target_error > 0. &&
                             !(scene.pairs().empty() && scene.body_pairs().empty())),

@@ -6,7 +6,7 @@ namespace billet {
 namespace {
 
 /// Limits of the extrapolation of forces.
-struct Limits {
+struct ForceCourseLimits {
   /// Maximum growth of forces until the end by extrapolation, over the force now. The rate of the
   /// last step may be that of a single event.
   static constexpr double max_growth = 10.;
@@ -23,7 +23,7 @@ void ForceCourse::accept(const double h, const double force) {
 
 double ForceCourse::scale() const {
   return std::max({force_, time_ > start_ ? work_ / (time_ - start_) : 0.,
-                   force_ + std::min(0.5 * force_rate_ * left(), Limits::max_growth * force_)});
+                   force_ + std::min(0.5 * force_rate_ * left(), ForceCourseLimits::max_growth * force_)});
 }
 
 void ForceCourse::save(StateWriter &writer) const {

@@ -28,7 +28,7 @@ constexpr unsigned int n_stresses = 6;
 constexpr std::size_t row_width = 2 * n_stresses + n_element_dofs + 1;
 
 /// Factors of (W4).
-struct Factors {
+struct MeshErrorFactors {
   /// Part of J² h A over the secant modulus of the interval: what half as long elements save in an
   /// elastic bar. Of rigid plasticity it is twice as much as they save, on the safe side.
   static constexpr double of_jump = 1. / 12.;
@@ -235,8 +235,8 @@ double MeshErrors::saved_work(const CellIterator &cell, const ElementVectors &po
     // A jump above the stress itself does not make the element softer than the strain that it has.
     const double modulus = std::max(equivalent, jump.norm()) / 3.;
     if (modulus > 0.)
-      saved += Factors::own * Factors::of_jump * height * size * (along + Factors::normal * across * across) *
-               own.strain / modulus;
+      saved += MeshErrorFactors::own * MeshErrorFactors::of_jump * height * size *
+               (along + MeshErrorFactors::normal * across * across) * own.strain / modulus;
   }
   return saved;
 }
@@ -302,7 +302,7 @@ double MeshErrors::error() const { return sum_of(of_bodies()); }
 
 std::vector<double> MeshErrors::of_bodies() const { return over(errors_, work_); }
 
-bool MeshErrors::sees_variation() const { return unseen_ <= Factors::unseen * squared_strain_; }
+bool MeshErrors::sees_variation() const { return unseen_ <= MeshErrorFactors::unseen * squared_strain_; }
 
 double MeshErrors::geometry_error() const { return sum_of(geometry_of_bodies()); }
 

@@ -24,7 +24,7 @@ using dealii::Tensor;
 
 namespace {
 
-struct Limits {
+struct MissingPairsLimits {
   /// Depths from which on a node counts as inside: in sizes of the facet above it, and in
   /// thicknesses of its element.
   static constexpr double part_of_facet = 0.1, part_of_thickness = 0.2;
@@ -53,7 +53,8 @@ bool contains(const BoundingBox &box, const Tensor<1, 3> &x) {
 
 /// Whether a point is in a trilinear element, or beside it by at most `margin` of its size.
 bool is_inside(const ElementVectors &corners, const Tensor<1, 3> &x, const double margin) {
-  const auto xi = find_reference_point(corners, x, {Limits::max_iterations, Limits::far});
+  const auto xi =
+      find_reference_point(corners, x, {MissingPairsLimits::max_iterations, MissingPairsLimits::far});
   return xi && dealii::GeometryInfo<3>::is_inside_unit_cell(*xi, margin);
 }
 
@@ -84,8 +85,8 @@ std::vector<unsigned int> count_elements(const std::vector<ElementVectors> &elem
 /// Returns the depth below this facet from which on a node counts as inside, the smaller of two
 /// lengths.
 double allowed_penetration(const BoundaryFacet &facet) {
-  return std::min(Limits::part_of_facet * std::sqrt(facet.area_vector().norm()),
-                  Limits::part_of_thickness * facet.thickness);
+  return std::min(MissingPairsLimits::part_of_facet * std::sqrt(facet.area_vector().norm()),
+                  MissingPairsLimits::part_of_thickness * facet.thickness);
 }
 
 Tensor<1, 3> position_of(const Point<3> &X, const std::array<DofIndex, 3> &dofs,
@@ -267,7 +268,7 @@ MissingPairs::Deepest MissingPairs::find_deepest(const Couple &couple, const boo
       elements.push_back(corners);
   }
   const std::vector<Tensor<1, 3>> points = positions_of(tested);
-  std::vector<unsigned int> counts = count_elements(elements, points, Limits::rounding);
+  std::vector<unsigned int> counts = count_elements(elements, points, MissingPairsLimits::rounding);
   dealii::Utilities::MPI::sum(counts, communicator, counts);
   std::vector<Tensor<1, 3>> inside;
   std::vector<bool> is_named;
@@ -349,7 +350,7 @@ std::optional<Tensor<1, 3>> MissingPairs::find_self_overlap(const Couple &couple
   std::vector<ElementVectors> elements;
   for (const Element &element : discretization_.elements(couple.body))
     elements.push_back(corners_of(element, displacements));
-  std::vector<unsigned int> counts = count_elements(elements, points, -Limits::in_itself);
+  std::vector<unsigned int> counts = count_elements(elements, points, -MissingPairsLimits::in_itself);
   dealii::Utilities::MPI::sum(counts, communicator, counts);
   const auto found = std::find_if(counts.begin(), counts.end(), [](const unsigned int n) { return n > 0; });
   if (found == counts.end())
@@ -380,7 +381,7 @@ MissingPairs::Deepest MissingPairs::enter_tool(Couple &couple, const Positions &
   followed = dealii::Utilities::MPI::max(followed, discretization_.communicator());
   std::array<double, 5> own{}; // relative, depth, position
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const double allowed = followed + Limits::in_tool * nodes[n].facet_size;
+    const double allowed = followed + MissingPairsLimits::in_tool * nodes[n].facet_size;
     const bool is_inside = !is_first && !is_named[n] && penetrations[n] >= allowed;
     // A node that enters slowly counts as in front until it is inside.
     is_in_front[n] = is_in_front[n] || (penetrations[n] > 0. && !is_inside);

@@ -12,7 +12,7 @@ namespace billet {
 namespace {
 
 /// Limits of what a step may pass over.
-struct Limits {
+struct MotionWatchLimits {
   /// Path over chord above which a step misses the motion: an arc of 15 degrees is 1.00286 times
   /// its chord.
   static constexpr double longer = 1.003;
@@ -78,7 +78,7 @@ std::vector<MotionWatch::Point> MotionWatch::places(const Track &track, const st
 
 void MotionWatch::add(Track track, const double rounding) {
   const std::vector<Point> points =
-      places(track, times_between(0., std::min(end_time_, track.end), Limits::per_run));
+      places(track, times_between(0., std::min(end_time_, track.end), MotionWatchLimits::per_run));
   for (const Point &point : points)
     track.extent = std::max(track.extent, distance(point, points.front()));
   if (track.extent > rounding)
@@ -86,8 +86,8 @@ void MotionWatch::add(Track track, const double rounding) {
 }
 
 std::string MotionWatch::find_unseen(const double from, const double to) const {
-  constexpr double per_run = Limits::per_run;
-  constexpr unsigned int minimum = Limits::minimum;
+  constexpr double per_run = MotionWatchLimits::per_run;
+  constexpr unsigned int minimum = MotionWatchLimits::minimum;
   const auto n = std::max(minimum, static_cast<unsigned int>(std::ceil(per_run * (to - from) / end_time_)));
   const std::vector<double> times = times_between(from, to, n);
   std::string found;
@@ -98,8 +98,8 @@ std::string MotionWatch::find_unseen(const double from, const double to) const {
     double path = 0.;
     for (std::size_t i = 1; i < points.size(); ++i)
       path += distance(points[i], points[i - 1]);
-    if (path > Limits::trifle * track.extent &&
-        path > Limits::longer * distance(points.back(), points.front())) {
+    if (path > MotionWatchLimits::trifle * track.extent &&
+        path > MotionWatchLimits::longer * distance(points.back(), points.front())) {
       found = track.name;
       break;
     }

@@ -13,7 +13,7 @@ namespace billet {
 namespace {
 
 /// Limits of the iterations, beside NewtonLimits.
-struct Limits {
+struct IterationLimits {
   /// Number of iterations to judge convergence by.
   static constexpr unsigned int window = 10;
   /// Maximum number of iterations to recover from round-off.
@@ -61,12 +61,12 @@ public:
     const ConvergenceMeasures &measures = report_.measures;
 
     // Convergence is judged except for round-off of contact.
-    const bool stagnates = n > 0 && norm > Limits::slow * last_norm_;
+    const bool stagnates = n > 0 && norm > IterationLimits::slow * last_norm_;
     last_norm_ = norm;
     const auto is_small = [&](const double contact_round_off) {
       // The full round-off estimate applies only if the iterations stagnate.
       const double round_off =
-          (stagnates ? 1. : Limits::certain) * problem_.round_off_force() + contact_round_off;
+          (stagnates ? 1. : IterationLimits::certain) * problem_.round_off_force() + contact_round_off;
       const bool is_exact = norm <= NewtonLimits::exact_residual * scale + round_off;
       const bool has_settled = measures.has_correction &&
                                measures.correction <= settings_.displacement_tolerance &&
@@ -83,7 +83,7 @@ public:
       verdict = NewtonVerdict::failed;
     } else if (is_small(std::min(contact, cap))) {
       verdict = NewtonVerdict::converged;
-    } else if (contact > cap && is_small(contact) && ++n_in_round_off_ > Limits::max_in_round_off) {
+    } else if (contact > cap && is_small(contact) && ++n_in_round_off_ > IterationLimits::max_in_round_off) {
       report_.is_stalled = is_near;
       report_.is_lost_in_round_off = !is_near;
       verdict = NewtonVerdict::converged;
@@ -95,7 +95,7 @@ public:
     } else if (n >= settings_.max_iterations) {
       report_.failure = "Newton's method does not converge in " + std::to_string(n) + " iterations";
       verdict = NewtonVerdict::failed;
-    } else if (n >= 3 * Limits::window && has_stalled(n)) {
+    } else if (n >= 3 * IterationLimits::window && has_stalled(n)) {
       // Later, drift is small beside the way so far.
       report_.failure =
           "the solver stops after " + std::to_string(n) + " iterations, since the residual no longer falls";
@@ -151,7 +151,7 @@ private:
     // the remaining distance.
     const double max_correction = last->full.linfty_norm();
     const double max_increment =
-        std::max(increment.linfty_norm(), Limits::min_increment * now.x.linfty_norm());
+        std::max(increment.linfty_norm(), IterationLimits::min_increment * now.x.linfty_norm());
     measures.has_correction = true;
     measures.correction = max_increment > 0. ? max_correction / max_increment : 0.;
     measures.energy = scale * increment_ > 0. ? std::abs(residual_work) / (scale * increment_) : 0.;
@@ -163,15 +163,16 @@ private:
   /// Whether the residual no longer falls.
   bool has_stalled(const unsigned int n) const {
     const bool is_last = n >= settings_.max_iterations;
-    return (n >= 2 * Limits::window && is_stagnant(report_.iterations, report_.force, Limits::window)) ||
-           (is_last && n >= Limits::window &&
-            is_stagnant(report_.iterations, report_.force, Limits::window / 2));
+    return (n >= 2 * IterationLimits::window &&
+            is_stagnant(report_.iterations, report_.force, IterationLimits::window)) ||
+           (is_last && n >= IterationLimits::window &&
+            is_stagnant(report_.iterations, report_.force, IterationLimits::window / 2));
   }
   /// Whether the residual has stalled, but is close to balance in some iterations.
   bool may_still_settle(const unsigned int n) const {
-    if (n >= 3 * Limits::window || !has_stalled(n))
+    if (n >= 3 * IterationLimits::window || !has_stalled(n))
       return false;
-    for (unsigned int back = 1; back < Limits::window; ++back)
+    for (unsigned int back = 1; back < IterationLimits::window; ++back)
       if (report_.iterations[n - back].force <= NewtonLimits::max_stalled_residual)
         return true;
     return false;
@@ -179,7 +180,7 @@ private:
   /// Whether, at the mean rate of the last iterations, the residual would miss its tolerance in the
   /// remaining ones.
   bool is_hopeless(const unsigned int n) const {
-    constexpr unsigned int window = Limits::window;
+    constexpr unsigned int window = IterationLimits::window;
     if (n < 2 * window)
       return false;
     const double before = report_.iterations[n - window].force;
@@ -239,11 +240,11 @@ bool is_stagnant(const std::vector<NewtonIteration> &iterations, const double la
     double &best = i + window <= iterations.size() ? before : now;
     best = std::min(best, iterations[i].force);
   }
-  return now > Limits::hardly_better * before;
+  return now > IterationLimits::hardly_better * before;
 }
 
 bool is_cycling(const std::vector<NewtonIteration> &iterations) {
-  constexpr std::size_t longest = Limits::longest_cycle, window = 2 * longest;
+  constexpr std::size_t longest = IterationLimits::longest_cycle, window = 2 * longest;
   if (iterations.size() < window + longest)
     return false;
   const auto force = [&](const std::size_t back) { return iterations[iterations.size() - 1 - back].force; };
@@ -251,11 +252,12 @@ bool is_cycling(const std::vector<NewtonIteration> &iterations) {
     bool returns = true;
     double minimum = force(0), maximum = force(0);
     for (std::size_t back = 0; back < window; ++back) {
-      returns = returns && std::abs(force(back) - force(back + period)) <= Limits::alike * force(back);
+      returns =
+          returns && std::abs(force(back) - force(back + period)) <= IterationLimits::alike * force(back);
       minimum = std::min(minimum, force(back));
       maximum = std::max(maximum, force(back));
     }
-    if (returns && maximum - minimum > Limits::apart * maximum)
+    if (returns && maximum - minimum > IterationLimits::apart * maximum)
       return true;
   }
   return false;

@@ -15,7 +15,7 @@ namespace billet {
 namespace {
 
 /// Limits of penalties that rise.
-struct Limits {
+struct PenaltyControlLimits {
   /// Part of penetration in the deformation of a path above which penalties rise, (L8). Then follow
   /// the part that raises aim at, and the part of all energy below which penetration is irrelevant.
   static constexpr double allowed = 0.004, aim = 0.003, counts = 0.002;
@@ -74,10 +74,10 @@ bool PenaltyControl::is_used() const {
 }
 
 void PenaltyControl::judge(Controlled &path, const Energies &energies, const std::vector<Factors> &room) {
-  const double part = path.softness.part(Limits::counts);
-  if (!(part > Limits::allowed))
+  const double part = path.softness.part(PenaltyControlLimits::counts);
+  if (!(part > PenaltyControlLimits::allowed))
     return;
-  const double raise = std::min(part / Limits::aim, Limits::max_at_once);
+  const double raise = std::min(part / PenaltyControlLimits::aim, PenaltyControlLimits::max_at_once);
   for (const std::size_t pair : path.parts.pairs) {
     if (!pairs_[pair].may_be_raised || !(energies.of_pairs[pair] > 0.) || !(room[pair].normal > 1.))
       continue;
@@ -111,10 +111,11 @@ void PenaltyControl::describe(const std::string &penalty, const std::size_t pair
 double PenaltyControl::tangential_raise(const std::size_t pair, const Energies &energies, const double room) {
   const StickSoftness &softness = energies.sticking[pair];
   const double part = softness.part();
-  if (!pairs_[pair].may_be_raised_tangentially || !(part > Limits::allowed_in_friction) ||
-      !(softness.lost > Limits::counts_in_friction * softness.pressure) || !(room > 1.))
+  if (!pairs_[pair].may_be_raised_tangentially || !(part > PenaltyControlLimits::allowed_in_friction) ||
+      !(softness.lost > PenaltyControlLimits::counts_in_friction * softness.pressure) || !(room > 1.))
     return 1.;
-  const double raise = std::min({part / Limits::aim_in_friction, Limits::max_at_once, room});
+  const double raise =
+      std::min({part / PenaltyControlLimits::aim_in_friction, PenaltyControlLimits::max_at_once, room});
   std::ostringstream reason;
   reason.precision(3);
   reason << "friction forces while sticking are too small by up to " << percent * part << " %";
@@ -141,7 +142,7 @@ std::vector<PenaltyControl::Factors> PenaltyControl::raises(const Energies &ener
   time_ = energies.time;
   const EnergyLedger &all = energies.all;
   const double deformed = all.of_elements() + all.contact;
-  const bool is_slow = max_kinetic_ < Limits::slow * deformed;
+  const bool is_slow = max_kinetic_ < PenaltyControlLimits::slow * deformed;
   for (std::size_t pair = 0; is_slow && pair < pairs_.size(); ++pair)
     factors[pair].tangential = tangential_raise(pair, energies, room[pair].tangential);
   for (Controlled &path : paths_) {
@@ -160,7 +161,8 @@ std::vector<PenaltyControl::Factors> PenaltyControl::raises(const Energies &ener
     const double factor = std::min(path.left, max_raise_);
     path.left /= factor;
     for (const std::size_t pair : path.parts.pairs)
-      if (pairs_[pair].may_be_raised && energies.of_pairs[pair] > Limits::notable_pair * penetration)
+      if (pairs_[pair].may_be_raised &&
+          energies.of_pairs[pair] > PenaltyControlLimits::notable_pair * penetration)
         factors[pair].normal = std::max(1., std::min(factor, room[pair].normal));
     path.softness.restart();
   }

@@ -12,7 +12,7 @@ namespace billet {
 namespace {
 
 /// Signs of penalties that are too low.
-struct Limits {
+struct PenaltyWatchLimits {
   /// Penetration that is too deep [facet sizes]: deeper nodes are visible in field output and
   /// affect areas.
   static constexpr double deep = 0.1;
@@ -31,15 +31,18 @@ struct Limits {
 DiagnosticList PenaltyWatch::check(const std::string &pair, const double time, const Penetration &deepest,
                                    const double displacement, const double part_of_work) {
   const bool is_slow = motion_ == Motion::slow;
-  const double minimum = is_slow ? Limits::min_in_slow_motion : Limits::min_in_sudden_motion;
+  const double minimum =
+      is_slow ? PenaltyWatchLimits::min_in_slow_motion : PenaltyWatchLimits::min_in_sudden_motion;
   double &maximum = displacements_[pair];
   maximum = std::max(maximum, displacement);
-  const bool is_deep = deepest.of_facet > Limits::deep;
-  const bool takes_motion = deepest.of_facet > minimum && deepest.length > Limits::much_taken * maximum;
-  const bool takes_work = is_slow && deepest.of_facet > minimum && part_of_work > Limits::much_taken;
+  const bool is_deep = deepest.of_facet > PenaltyWatchLimits::deep;
+  const bool takes_motion =
+      deepest.of_facet > minimum && deepest.length > PenaltyWatchLimits::much_taken * maximum;
+  const bool takes_work =
+      is_slow && deepest.of_facet > minimum && part_of_work > PenaltyWatchLimits::much_taken;
   const bool was_deep = are_deep_[pair];
   are_deep_[pair] = is_deep;
-  const bool matters = is_slow || was_deep || part_of_work > Limits::counts;
+  const bool matters = is_slow || was_deep || part_of_work > PenaltyWatchLimits::counts;
   has_low_penalties_ = has_low_penalties_ || is_deep || takes_motion || takes_work;
   if (!((is_deep && matters) || takes_work || (is_slow && takes_motion)))
     return {};

@@ -10,7 +10,7 @@ namespace billet {
 namespace {
 
 /// Defects of the balance above which a warning is printed.
-struct Limits {
+struct ReactionsLimits {
   static constexpr double in_double = 1e-9, in_float = 1e-3;
 };
 
@@ -36,7 +36,7 @@ std::vector<std::string> named_loads(const Scene &scene) {
 
 DiagnosticList check_force_balance(const ForceBalance &balance, const double time, const bool in_float) {
   const double defect = balance.defect();
-  if (defect <= (in_float ? Limits::in_float : Limits::in_double) ||
+  if (defect <= (in_float ? ReactionsLimits::in_float : ReactionsLimits::in_double) ||
       defect * balance.size <= balance.round_off)
     return {};
   std::ostringstream text;

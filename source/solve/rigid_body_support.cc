@@ -19,7 +19,7 @@ using Rows = std::vector<std::vector<double>>;
 namespace {
 
 /// Limits, of vectors of length 1 unless they say otherwise.
-struct Limits {
+struct RigidBodySupportLimits {
   /// Length of a row that counts as zero. Rows are unit vectors or shorter.
   static constexpr double no_row = 1e-6;
   /// Remainder that counts as zero: of the sum of all rows, as part of it, and of an aim.
@@ -65,7 +65,7 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
     std::vector<double> part;
     for (const auto &motion : basis)
       part.push_back(dot(row, motion));
-    if (dot(part, part) > Limits::no_row * Limits::no_row)
+    if (dot(part, part) > RigidBodySupportLimits::no_row * RigidBodySupportLimits::no_row)
       rows.push_back(std::move(part));
   }
   // A motion orthogonal to all rows is free in both directions.
@@ -82,7 +82,7 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
   gram.compute_eigenvalues_symmetric(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max(),
                                      0., values, vectors);
   std::vector<double> factors(n);
-  if (rows.empty() || values[0] <= Limits::no_eigenvalue * values[n - 1]) {
+  if (rows.empty() || values[0] <= RigidBodySupportLimits::no_eigenvalue * values[n - 1]) {
     for (std::size_t k = 0; k < n; ++k)
       factors[k] = rows.empty() ? (k == 0 ? 1. : 0.) : vectors(k, 0);
     return combine(factors);
@@ -97,9 +97,10 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
     size += dot(row, row);
   const auto is_small = [&] {
     const double left = std::sqrt(dot(rest, rest));
-    return left <= Limits::no_rest * whole || left <= Limits::no_row * std::sqrt(size);
+    return left <= RigidBodySupportLimits::no_rest * whole ||
+           left <= RigidBodySupportLimits::no_row * std::sqrt(size);
   };
-  for (unsigned int sweep = 0; sweep < Limits::max_sweeps && !is_small(); ++sweep)
+  for (unsigned int sweep = 0; sweep < RigidBodySupportLimits::max_sweeps && !is_small(); ++sweep)
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const double change = std::max(-weights[i], -dot(rows[i], rest) / dot(rows[i], rows[i]));
       weights[i] += change;
@@ -120,10 +121,11 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
 std::optional<std::vector<double>> project_on_cone(const Rows &rows, std::vector<double> aim) {
   std::vector<double> weights(rows.size(), 0.);
   double before = std::sqrt(dot(aim, aim));
-  for (unsigned int sweep = 0; sweep < Limits::max_sweeps && before > Limits::no_rest; ++sweep) {
+  for (unsigned int sweep = 0;
+       sweep < RigidBodySupportLimits::max_sweeps && before > RigidBodySupportLimits::no_rest; ++sweep) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const double square = dot(rows[i], rows[i]);
-      if (square <= Limits::no_row * Limits::no_row)
+      if (square <= RigidBodySupportLimits::no_row * RigidBodySupportLimits::no_row)
         continue;
       const double change = std::max(-weights[i], -dot(rows[i], aim) / square);
       weights[i] += change;
@@ -131,11 +133,11 @@ std::optional<std::vector<double>> project_on_cone(const Rows &rows, std::vector
         aim[k] += change * rows[i][k];
     }
     const double now = std::sqrt(dot(aim, aim));
-    if (before - now <= Limits::settled * before)
+    if (before - now <= RigidBodySupportLimits::settled * before)
       break;
     before = now;
   }
-  if (std::sqrt(dot(aim, aim)) <= Limits::no_rest)
+  if (std::sqrt(dot(aim, aim)) <= RigidBodySupportLimits::no_rest)
     return {};
   return aim;
 }
@@ -288,11 +290,11 @@ RigidBodySupport::Mode RigidBodySupport::mode_of(const Row &motion) const {
   }
   double max_component = 0.; // largest component, which is made positive
   for (unsigned int i = 0; i < 6; ++i)
-    if (std::abs(motion[6 * mode.body + i]) > (1. + Limits::equal) * std::abs(max_component))
+    if (std::abs(motion[6 * mode.body + i]) > (1. + RigidBodySupportLimits::equal) * std::abs(max_component))
       max_component = motion[6 * mode.body + i];
   const auto component = [&](const unsigned int i) {
     const double value = motion[6 * mode.body + i] / (std::sqrt(maximum) * (max_component < 0. ? -1. : 1.));
-    return std::abs(value) < Limits::no_component ? 0. : value;
+    return std::abs(value) < RigidBodySupportLimits::no_component ? 0. : value;
   };
   mode.motion = {Tensor<1, 3>({component(0), component(1), component(2)}),
                  Tensor<1, 3>({component(3), component(4), component(5)})};
@@ -316,7 +318,8 @@ RigidBodySupport::Unresisted RigidBodySupport::find_unresisted_both_ways() const
                                        std::numeric_limits<double>::max(), 0., values, vectors);
   Unresisted found;
   Rows bodies;
-  for (std::size_t k = 0; k < size && (maximum == 0. || values[k] <= Limits::no_eigenvalue * maximum); ++k) {
+  for (std::size_t k = 0;
+       k < size && (maximum == 0. || values[k] <= RigidBodySupportLimits::no_eigenvalue * maximum); ++k) {
     Row motion(size), of_bodies;
     for (std::size_t i = 0; i < size; ++i)
       motion[i] = vectors(i, k);
@@ -328,7 +331,7 @@ RigidBodySupport::Unresisted RigidBodySupport::find_unresisted_both_ways() const
         of_bodies[i] -= along * other[i];
     }
     const double left = std::sqrt(dot(of_bodies, of_bodies));
-    if (left <= Limits::alike)
+    if (left <= RigidBodySupportLimits::alike)
       continue;
     for (double &component : of_bodies)
       component /= left;
@@ -353,7 +356,8 @@ RigidBodySupport::Mode RigidBodySupport::find_sliding(const std::vector<Row> &mo
   for (const auto &motion : motions)
     for (std::size_t i = 0; i < n(); ++i)
       sliding[i] += dot(motion, slide) * motion[i];
-  const bool has_direction = dot(sliding, sliding) > Limits::no_slide * Limits::no_slide * dot(slide, slide);
+  const bool has_direction = dot(sliding, sliding) > RigidBodySupportLimits::no_slide *
+                                                         RigidBodySupportLimits::no_slide * dot(slide, slide);
   return mode_of(has_direction ? sliding : motions.front());
 }
 

@@ -12,7 +12,7 @@ namespace billet {
 namespace {
 
 /// Limits of the warning. The slope is over the flow stress.
-struct Limits {
+struct SofteningWatchLimits {
   static constexpr double strain = 0.01; ///< smaller ones are no bands yet
   static constexpr double slope = -0.05; ///< flatter curves hardly localise
 };
@@ -39,7 +39,7 @@ DiagnosticList SofteningWatch::check(const Solution &solution) {
   DiagnosticList messages;
   for (auto heated = bodies_.begin(); heated != bodies_.end();) {
     const auto [slope, strain] = find_weakest(*heated, solution);
-    if (!(slope < Limits::slope)) {
+    if (!(slope < SofteningWatchLimits::slope)) {
       ++heated;
       continue;
     }
@@ -69,7 +69,8 @@ SofteningWatch::Weakest SofteningWatch::find_weakest(Heated &heated, const Solut
       const double strain = body.law->equivalent_plastic_strain(state.data());
       const std::size_t i = strains.size();
       strains.push_back(strain);
-      if (i >= heated.strains.size() || !(strain > heated.strains[i] && strain > Limits::strain))
+      if (i >= heated.strains.size() ||
+          !(strain > heated.strains[i] && strain > SofteningWatchLimits::strain))
         continue;
       const double slope =
           body.law->flow_slope(state.data(), temperature).value_or(0.) / flow->stress(strain);

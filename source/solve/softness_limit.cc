@@ -10,7 +10,7 @@ namespace billet {
 namespace {
 
 /// Constants of (L7), as parts of forces unless they say otherwise.
-struct Limits {
+struct SoftnessLimits {
   /// Missing part of a force up to which nothing is augmented.
   static constexpr double allowed = 2e-3;
   /// Minimum force of a pair, as part of the largest one, and minimum friction, as part of the
@@ -43,8 +43,9 @@ double max_force(const std::vector<ContactSprings> &springs) {
 } // namespace
 
 double SoftnessLimit::Direction::missing(const ContactSprings::Direction &springs, const double force) const {
-  const double in_all = counts / (1. - std::min(counts, Limits::max_ratio));
-  return std::min(changed, springs.held > Limits::unlike * force ? springs.held : in_all * springs.held);
+  const double in_all = counts / (1. - std::min(counts, SoftnessLimits::max_ratio));
+  return std::min(changed,
+                  springs.held > SoftnessLimits::unlike * force ? springs.held : in_all * springs.held);
 }
 
 void SoftnessLimit::Direction::learn(const ContactSprings::Direction &before, const Change &change,
@@ -52,12 +53,12 @@ void SoftnessLimit::Direction::learn(const ContactSprings::Direction &before, co
   // Only the first augmentation counts: facets that do not fit keep gaps.
   const bool is_first = std::isinf(changed);
   changed = change.in_all;
-  if (is_first && before.held > Limits::min_held * before.force && before.held > 0.)
+  if (is_first && before.held > SoftnessLimits::min_held * before.force && before.held > 0.)
     counts = std::min(1., change.of_nodes / before.held);
   if (rule == Rule::sheet) {
-    const double ratio = before.held > Limits::min_held_of_sheet * before.force
-                             ? std::min(change.in_all / before.held, Limits::max_ratio)
-                             : Limits::unknown_ratio;
+    const double ratio = before.held > SoftnessLimits::min_held_of_sheet * before.force
+                             ? std::min(change.in_all / before.held, SoftnessLimits::max_ratio)
+                             : SoftnessLimits::unknown_ratio;
     changed *= ratio / (1. - ratio);
   }
 }
@@ -83,7 +84,7 @@ bool SoftnessLimit::is_used() const {
 
 std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &springs,
                                           const double resolved) const {
-  const double minimum = Limits::min_of_max * max_force(springs);
+  const double minimum = SoftnessLimits::min_of_max * max_force(springs);
   std::vector<double> result(pairs_.size());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const Pair &pair = pairs_[i];
@@ -91,13 +92,13 @@ std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &spr
       continue;
     const auto &[normal, tangential] = springs[i];
     const double pressure = std::max(minimum, normal.force),
-                 friction = std::max(Limits::min_friction * pressure, tangential.force);
+                 friction = std::max(SoftnessLimits::min_friction * pressure, tangential.force);
     const double of_pressure = pair.normal.missing(normal, pressure),
                  of_friction = pair.tangential.missing(tangential, friction),
-                 left = std::max(Limits::min_left * Limits::allowed * friction,
-                                 Limits::allowed * friction - pair.let_in);
+                 left = std::max(SoftnessLimits::min_left * SoftnessLimits::allowed * friction,
+                                 SoftnessLimits::allowed * friction - pair.let_in);
     if (of_pressure > 0.)
-      result[i] += of_pressure / (Limits::allowed * pressure);
+      result[i] += of_pressure / (SoftnessLimits::allowed * pressure);
     if (pair.rule == Rule::general && of_friction > resolved * pressure)
       result[i] += of_friction / left;
   }

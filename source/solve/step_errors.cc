@@ -19,7 +19,7 @@ double product(const ResultGroup &a, const ResultGroup &b) {
 }
 
 /// Constants of error control; factors unless they say otherwise.
-struct Factors {
+struct StepErrorFactors {
   /// Steps until the next measurement after an impossible one.
   static constexpr unsigned int soon = 1;
   /// Growth of errors: they grow with the force in upsetting, and fade in stretching. This is the
@@ -56,7 +56,7 @@ struct Factors {
 
 /// Returns the error of forces, in units of c, by steps of length h. Each pair of steps adds 2 c h²
 /// and halves the earlier error: the sum of 1, ½, ¼, ...
-double left_where_errors_fade(const double h) { return Factors::sum_of_halves * 2. * h * h; }
+double left_where_errors_fade(const double h) { return StepErrorFactors::sum_of_halves * 2. * h * h; }
 
 } // namespace
 
@@ -64,7 +64,7 @@ void StepErrors::add_step(const double h) {
   errors_.resize(slopes_.size()); // after a restart there may be other tools
   for (std::size_t i = 0; i < errors_.size(); ++i)
     errors_[i] = rules_.fade ? left_where_errors_fade(h) * slopes_[i]
-                             : errors_[i] + Factors::growth_of_errors * h * h * slopes_[i];
+                             : errors_[i] + StepErrorFactors::growth_of_errors * h * h * slopes_[i];
 }
 
 void StepErrors::accept(const double h, const std::size_t n_forces) {
@@ -83,10 +83,11 @@ void StepErrors::accept(const double h, const std::size_t n_forces) {
 }
 
 bool StepErrors::wants_measurement(const ForceCourse &course, const double h) const {
-  if (n_measurements_ == 0 && times::is_after(course.time() + Factors::last_chance * h, course.end_time()))
+  if (n_measurements_ == 0 &&
+      times::is_after(course.time() + StepErrorFactors::last_chance * h, course.end_time()))
     return true;
   return wants_measurement(course) ||
-         (n_measurements_ > 0 && course.force() > 0. && h > Factors::longer * measured_step_);
+         (n_measurements_ > 0 && course.force() > 0. && h > StepErrorFactors::longer * measured_step_);
 }
 
 double StepErrors::allowed_rate(const ForceCourse &course) const {
@@ -95,27 +96,27 @@ double StepErrors::allowed_rate(const ForceCourse &course) const {
   const double span = course.span(), left = course.end_time() - course.time(), scale = course.scale();
   const double even = 2. * rules_.tolerance * scale / span;
   // Then the minimum is the maximum.
-  if (!(Factors::min_rate * span * span < Factors::max_rate * left * left))
-    return Factors::max_rate * even;
+  if (!(StepErrorFactors::min_rate * span * span < StepErrorFactors::max_rate * left * left))
+    return StepErrorFactors::max_rate * even;
   const double rate = 2. *
                       (rules_.tolerance * (course.work() + scale * left) - integral_ - last_error_ * left) /
                       (left * left);
-  return std::min(Factors::max_rate * even,
-                  std::max(Factors::min_rate * even * span * span / (left * left), rate));
+  return std::min(StepErrorFactors::max_rate * even,
+                  std::max(StepErrorFactors::min_rate * even * span * span / (left * left), rate));
 }
 
 double StepErrors::left_at_the_end(const ForceCourse &course, const double slope, const double h) const {
   return rules_.fade ? left_where_errors_fade(h) * slope
-                     : Factors::growth_of_errors * slope * h * course.span();
+                     : StepErrorFactors::growth_of_errors * slope * h * course.span();
 }
 
 double StepErrors::allowed_stretch(const ForceCourse &course, const double h) const {
   if (!(last_slope_ > 0.))
-    return Factors::max_stretch;
+    return StepErrorFactors::max_stretch;
   const double stretch =
       rules_.fade ? std::sqrt(rules_.tolerance * course.scale() / left_at_the_end(course, last_slope_, h))
-                  : allowed_rate(course) / (Factors::growth_of_errors * last_slope_ * h);
-  return std::clamp(stretch, Factors::min_stretch, Factors::max_stretch);
+                  : allowed_rate(course) / (StepErrorFactors::growth_of_errors * last_slope_ * h);
+  return std::clamp(stretch, StepErrorFactors::min_stretch, StepErrorFactors::max_stretch);
 }
 
 StepErrors::Slope StepErrors::slope_of(const double h, const ResultGroup &forces,
@@ -152,7 +153,7 @@ void StepErrors::take(const Slope &slope, const double h) {
   errors_.resize(now.size());
   for (std::size_t i = 0; i < now.size(); ++i)
     errors_[i] = rules_.fade ? left_where_errors_fade(h) * now[i]
-                             : errors_[i] + Factors::growth_of_errors *
+                             : errors_[i] + StepErrorFactors::growth_of_errors *
                                                 (2. * h * h * now[i] + h_squared * between * now[i] -
                                                  unmeasured_ * slopes_[i]);
   const double error = size_of(errors_);
@@ -160,8 +161,8 @@ void StepErrors::take(const Slope &slope, const double h) {
   last_error_ = error;
   // From here on the new slope counts, limited if it is much larger than the last one, for the same
   // reason. Errors that change direction do not add up.
-  const double sudden = slope.value > Factors::max_sudden * slope.last && !rules_.stays
-                            ? Factors::max_sudden * slope.last / slope.value
+  const double sudden = slope.value > StepErrorFactors::max_sudden * slope.last && !rules_.stays
+                            ? StepErrorFactors::max_sudden * slope.last / slope.value
                             : 1.;
   const bool has_turned = product(now, slopes_) < 0.;
   for (std::size_t i = 0; i < now.size(); ++i)
@@ -196,9 +197,9 @@ void StepErrors::measure(const ForceCourse &course, const double h, const Result
   if (rules_.tolerance == 0.)
     return;
   const bool may_matter =
-      left_at_the_end(course, slope.maximum, h) > Factors::matters * rough_target() * course.scale();
+      left_at_the_end(course, slope.maximum, h) > StepErrorFactors::matters * rough_target() * course.scale();
   choose_longest_step(course, h, may_matter && !rules_.fade, slope.is_known);
-  if (h < Factors::shorter * last_step && part_ > Factors::as_much * last_part)
+  if (h < StepErrorFactors::shorter * last_step && part_ > StepErrorFactors::as_much * last_part)
     longest_step_ = std::max(longest_step_, last_step);
 }
 
@@ -207,13 +208,14 @@ void StepErrors::choose_longest_step(const ForceCourse &course, const double h, 
   longest_step_ = h * allowed_stretch(course, h);
   if (!matter)
     return;
-  const double span = course.span(), max_span = Factors::max_span * std::sqrt(rules_.tolerance) * span;
+  const double span = course.span(),
+               max_span = StepErrorFactors::max_span * std::sqrt(rules_.tolerance) * span;
   longest_step_ = std::min(longest_step_, is_known ? max_span : std::max(max_span, h));
   // Steps that Newton's method has cut grow again: errors do not hold them below this either.
-  const double grown = std::min(longest_taken_, Factors::max_stretch * h);
-  longest_step_ =
-      std::max(longest_step_, std::min(grown, std::min(Factors::min_of_max_span * max_span,
-                                                       Factors::min_span * rules_.tolerance * span)));
+  const double grown = std::min(longest_taken_, StepErrorFactors::max_stretch * h);
+  longest_step_ = std::max(longest_step_,
+                           std::min(grown, std::min(StepErrorFactors::min_of_max_span * max_span,
+                                                    StepErrorFactors::min_span * rules_.tolerance * span)));
 }
 
 void StepErrors::miss(const double h, const bool failed) {
@@ -222,14 +224,14 @@ void StepErrors::miss(const double h, const bool failed) {
     return;
   }
   n_failed_ = failed ? n_failed_ + 1 : 0;
-  interval_.wait(Factors::soon);
+  interval_.wait(StepErrorFactors::soon);
   // A first failure may be a single event, a second one is due to the length. If shorter steps fail
   // as well, it is neither.
   if (has_given_up()) {
     interval_.wait(MeasurementInterval::max);
     longest_step_ = std::numeric_limits<double>::infinity();
   } else if (n_failed_ > 1 && rules_.tolerance > 0.)
-    longest_step_ = std::min(longest_step_, Factors::cut * h);
+    longest_step_ = std::min(longest_step_, StepErrorFactors::cut * h);
 }
 
 void StepErrors::save(StateWriter &writer) const {

@@ -19,6 +19,9 @@ struct MidpointIncrement {
 bool compute_increment(const dealii::Tensor<2, 3> &F_n, const dealii::Tensor<2, 3> &F,
                        MidpointIncrement &increment);
 
+/// Returns R s Rᵀ.
+dealii::SymmetricTensor<2, 3> turn(const dealii::Tensor<2, 3> &R, const dealii::SymmetricTensor<2, 3> &s);
+
 /// Returns R s Rᵀ + 2 G dev sym ΔL.
 dealii::SymmetricTensor<2, 3> compute_trial_deviator(const MidpointIncrement &increment, double shear,
                                                      const dealii::SymmetricTensor<2, 3> &deviator_n);

@@ -141,8 +141,6 @@ void write_tensor(const dealii::SymmetricTensor<2, 3> &tensor, double *numbers);
 /// Deformation gradients as numbers, row by row.
 dealii::Tensor<2, 3> read_gradient(const double *numbers);
 void write_gradient(const dealii::Tensor<2, 3> &F, double *numbers);
-/// Returns R s Rᵀ.
-dealii::SymmetricTensor<2, 3> turn(const dealii::Tensor<2, 3> &R, const dealii::SymmetricTensor<2, 3> &s);
 /// Returns C : d.
 dealii::SymmetricTensor<2, 3> multiply(const SpatialModuli &C, const dealii::SymmetricTensor<2, 3> &d);
 

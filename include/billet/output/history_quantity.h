@@ -69,6 +69,12 @@ private:
 
 HistoryQuantities &history_quantities();
 
+/// Returns a name of the scene in the form allowed in a column's name.
+std::string column_name(std::string name);
+
+/// Appends the three components.
+void add_vector(const dealii::Tensor<1, 3> &vector, std::vector<double> &values);
+
 } // namespace billet
 
 #endif

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/history_quantity.h"
 
-#include <algorithm>
-
 namespace billet {
 
 HistoryQuantity tool_loads_quantity();
@@ -10,22 +8,10 @@ HistoryQuantity body_pair_loads_quantity();
 
 namespace {
 
-/// Returns a name of the scene in the form allowed in a column's name.
-std::string column_name(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](const char c) { return c == ',' || c == '"'; }, '_');
-  return name;
-}
-
 /// Names of the values of add_load().
 constexpr std::array<const char *, 8> load_names = {
     "force_x",  "force_y",  "force_z",      "moment_x",
     "moment_y", "moment_z", "contact_area", "deepest_penetration"};
-
-void add_vector(const dealii::Tensor<1, 3> &vector, std::vector<double> &values) {
-  for (unsigned int c = 0; c < 3; ++c)
-    values.push_back(vector[c]);
-}
 
 void add_load(const ContactLoad &load, std::vector<double> &values) {
   add_vector(load.force, values);

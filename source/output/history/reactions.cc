@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/history_quantity.h"
 
-#include <algorithm>
-
 namespace billet {
 
 HistoryQuantity support_reactions_quantity();
@@ -14,19 +12,8 @@ HistoryQuantity auxiliary_forces_quantity();
 
 namespace {
 
-std::string column_name(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](const char c) { return c == ',' || c == '"'; }, '_');
-  return name;
-}
-
 constexpr std::array<const char *, 6> resultant_names = {"force_x",  "force_y",  "force_z",
                                                          "moment_x", "moment_y", "moment_z"};
-
-void add_vector(const dealii::Tensor<1, 3> &vector, std::vector<double> &values) {
-  for (unsigned int c = 0; c < 3; ++c)
-    values.push_back(vector[c]);
-}
 
 } // namespace
 

@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/history_quantity.h"
 
-#include <algorithm>
-
 namespace billet {
 
 HistoryQuantity whole_section_quantity();
-
-namespace {
-
-std::string column_name(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](const char c) { return c == ',' || c == '"'; }, '_');
-  return name;
-}
-
-} // namespace
 
 HistoryQuantity whole_section_quantity() {
   return {"forces in the whole of a section",

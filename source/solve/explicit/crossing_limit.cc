@@ -8,7 +8,7 @@ namespace billet {
 
 namespace {
 
-struct Limits {
+struct CrossingLimits {
   /// Maximum error by nodes that come through surfaces in a step, as part of the energy, (E5).
   static constexpr double allowed = 0.0025;
 };
@@ -16,7 +16,7 @@ struct Limits {
 } // namespace
 
 double CrossingLimit::longest_step(const double step, const double springs, const double energy) {
-  return step * std::sqrt(Limits::allowed * energy / (0.125 * springs));
+  return step * std::sqrt(CrossingLimits::allowed * energy / (0.125 * springs));
 }
 
 CrossingLimit::Coming CrossingLimit::at_start(const double stable_step) const {

@@ -13,7 +13,7 @@ namespace billet {
 namespace {
 
 /// Limits of steps, as factors unless they say otherwise.
-struct Limits {
+struct ExplicitClockLimits {
   /// Growth of steps of the allowed length, as part of them, and maximum factor of shorter steps.
   /// The error of a step change by a part p scales with p (ω Δt)²: short steps may grow faster.
   static constexpr double growth = 0.02, max_growth = 2.;
@@ -32,13 +32,15 @@ void ExplicitClock::plan(const double event, const double allowed) {
   step_before_ = step_;
   const double length = step_ / allowed;
   const double longest =
-      n_steps_ > 0
-          ? std::min(allowed, std::min(Limits::max_growth, 1. + Limits::growth / (length * length)) * step_)
-          : allowed;
+      n_steps_ > 0 ? std::min(allowed, std::min(ExplicitClockLimits::max_growth,
+                                                1. + ExplicitClockLimits::growth / (length * length)) *
+                                           step_)
+                   : allowed;
   const double remaining = event - time_;
   const double n = times::count_steps(remaining, longest);
   const double fresh = remaining / n;
-  is_growing_ = step_ < (is_growing_ ? Limits::long_step : Limits::short_step) * allowed;
+  is_growing_ =
+      step_ < (is_growing_ ? ExplicitClockLimits::long_step : ExplicitClockLimits::short_step) * allowed;
   const bool is_planned = n_planned_ > 0 && event_ == event && step_ <= allowed;
   // Near the event, new steps may be shorter than the planned ones: then the planned ones are kept.
   if (is_planned && !(is_growing_ && fresh > step_)) {
@@ -46,10 +48,10 @@ void ExplicitClock::plan(const double event, const double allowed) {
     return;
   }
   step_ = fresh;
-  const bool fits = n <= Limits::max_planned; // else this step only is planned
+  const bool fits = n <= ExplicitClockLimits::max_planned; // else this step only is planned
   event_ = fits ? event : time_ + step_;
   n_planned_ = fits ? static_cast<unsigned int>(n) - 1 : 0;
-  if (!(time_ + step_ > time_) || !(n < Limits::too_many)) {
+  if (!(time_ + step_ > time_) || !(n < ExplicitClockLimits::too_many)) {
     std::ostringstream why;
     why << "the stable step, " << longest << ", is below the resolution of the time";
     throw failure({why.str(), "Check for nearly flat elements, low densities and high penalties; 'Mass "

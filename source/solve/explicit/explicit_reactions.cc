@@ -12,7 +12,7 @@ using dealii::Tensor;
 
 namespace {
 
-struct Limits {
+struct ExplicitReactionsLimits {
   /// Force by round-off of displacements over that by the last bit of a displacement of the scene's
   /// size.
   static constexpr double last_bits = 100.;
@@ -26,7 +26,7 @@ double find_round_off_force(const ExplicitParts &parts) {
   const double last_bit = parts.settings().number_type == NumberType::float_precision
                               ? double{std::numeric_limits<float>::epsilon()}
                               : std::numeric_limits<double>::epsilon();
-  return Limits::last_bits * last_bit * stiffest * parts.discretization.radius() *
+  return ExplicitReactionsLimits::last_bits * last_bit * stiffest * parts.discretization.radius() *
          parts.discretization.radius();
 }
 

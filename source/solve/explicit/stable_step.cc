@@ -14,7 +14,7 @@ namespace billet {
 namespace {
 
 /// Limits, as parts of a stable step.
-struct Limits {
+struct StableStepLimits {
   /// Minimum step for nodes that come through surfaces, as part of the stable step, (E5).
   static constexpr double shortest = 0.25;
   /// Stable step of the elements, over that at the start, below which the run would hardly end.
@@ -55,10 +55,10 @@ double StableStep::usual_with(const double frequency_square, const MPI_Comm comm
 
 double StableStep::allowed(const double crossing_step) const {
   const double stable = usual();
-  return std::min(stable, std::max(factor_ * crossing_step, Limits::shortest * stable));
+  return std::min(stable, std::max(factor_ * crossing_step, StableStepLimits::shortest * stable));
 }
 
-bool StableStep::is_set_by_contact() const { return value_ < Limits::much_shorter * of_elements_; }
+bool StableStep::is_set_by_contact() const { return value_ < StableStepLimits::much_shorter * of_elements_; }
 
 std::string StableStep::describe_flat_elements() const {
   std::ostringstream text;
@@ -69,13 +69,13 @@ std::string StableStep::describe_flat_elements() const {
 }
 
 Explanation StableStep::describe_collapse() const {
-  if (!(of_elements_ < Limits::collapsed * of_elements_first_))
+  if (!(of_elements_ < StableStepLimits::collapsed * of_elements_first_))
     return {};
   return {describe_flat_elements() + ", so the run cannot finish in reasonable time", flat_element_advice};
 }
 
 DiagnosticList StableStep::check_elements(const double t) const {
-  if (!(of_elements_ < Limits::flat * of_elements_first_))
+  if (!(of_elements_ < StableStepLimits::flat * of_elements_first_))
     return {};
   std::string text = describe_flat_elements();
   text.front() = 'T';

@@ -8,7 +8,7 @@ namespace billet {
 
 namespace {
 
-struct Limits {
+struct ContactSetLimits {
   /// Unit of penetration in pairs without a tolerance [facet size]: the tightest tolerance that a
   /// target error sets.
   static constexpr double penetration = 1e-5;
@@ -53,14 +53,14 @@ double ContactSet::find_penetration() const {
                                      return contact.settings().has_tolerance()
                                                 ? 0.
                                                 : contact.measures().penetration().of_facet;
-                                   }) / Limits::penetration);
+                                   }) / ContactSetLimits::penetration);
 }
 
 double ContactSet::find_spring_round_off() const {
   double force = 0.;
   for (const auto &contact : *this)
     force = std::max(force, contact.penalties().max_spring() * (reach_ + contact.measures().surface_reach()));
-  return Limits::last_bits * std::numeric_limits<double>::epsilon() *
+  return ContactSetLimits::last_bits * std::numeric_limits<double>::epsilon() *
          dealii::Utilities::MPI::max(force, communicator_);
 }
 
@@ -74,7 +74,7 @@ std::string ContactSet::stiffest_pairs() const {
   const double stiffest = *std::max_element(springs.begin(), springs.end());
   std::string result;
   for (std::size_t i = 0; i < springs.size(); ++i)
-    if (springs[i] >= Limits::as_stiff * stiffest)
+    if (springs[i] >= ContactSetLimits::as_stiff * stiffest)
       result += (result.empty() ? "'" : ", '") + (*this)[i].name() + "'";
   return result;
 }

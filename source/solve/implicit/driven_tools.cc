@@ -9,7 +9,7 @@ namespace billet {
 
 namespace {
 
-struct Factors {
+struct DrivenToolFactors {
   /// Travel of a tool beyond its first touch, as part of the scene's radius, so that it does touch.
   static constexpr double beyond_touch = 1e-6;
   /// Tolerance of the solutions with the columns of the border over that of the residual. A tool
@@ -134,7 +134,7 @@ double DrivenTools::distance_to_touch(const std::size_t tool) const {
       if (contact.tool() == tool)
         way = std::min(way, contact.drive().distance_to_touch(scene_.tools()[tool].force_direction()));
   way = dealii::Utilities::MPI::min(way, discretization_.communicator());
-  return way + Factors::beyond_touch * discretization_.radius();
+  return way + DrivenToolFactors::beyond_touch * discretization_.radius();
 }
 
 void DrivenTools::assemble_tangent() {
@@ -179,7 +179,7 @@ bool DrivenTools::solve(const Solve &solve, const Vector &r_u, const std::vector
   dealii::FullMatrix<double> S(border_.block);
   dealii::Vector<double> rhs(n), solution(n);
   for (std::size_t j = 0; j < n; ++j) {
-    if (!solve(border_.columns[j], Factors::of_columns * relative_tolerance, Y[j]))
+    if (!solve(border_.columns[j], DrivenToolFactors::of_columns * relative_tolerance, Y[j]))
       return false;
     for (std::size_t i = 0; i < n; ++i)
       S(i, j) -= border_.rows[i] * Y[j];

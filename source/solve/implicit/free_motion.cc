@@ -15,7 +15,7 @@ namespace billet {
 
 namespace {
 
-struct Limits {
+struct FreeMotionLimits {
   /// Limits of quasi-static motion, beyond what tools and supports prescribe: of a step and of the
   /// run, in diameters of the scene.
   static constexpr double max_step = 1., max_path = 10.;
@@ -92,7 +92,7 @@ std::optional<FreeMode> find_free_mode(const ImplicitProblem &problem, const std
   const double size = resistances.empty()
                           ? 1.
                           : std::max((box.high - box.low).norm(),
-                                     Limits::min_size * problem.parts().discretization().radius());
+                                     FreeMotionLimits::min_size * problem.parts().discretization().radius());
   const auto motion = find_free_motion(resistances, 0.5 * (box.low + box.high), size);
   if (!motion)
     return {};
@@ -184,15 +184,15 @@ std::optional<StepFailure> judge_travel(const ImplicitProblem &problem, const do
   };
   std::ostringstream text;
   text.precision(3);
-  if (maximum[1] > Limits::max_step * diameter + 2. * driven) {
+  if (maximum[1] > FreeMotionLimits::max_step * diameter + 2. * driven) {
     text << "the step to time " << t << " moves a node by " << maximum[1] << ", which is "
          << maximum[1] / diameter << " times the diameter of the scene. Tools and supports move by " << driven
-         << "; allowed is " << Limits::max_step << " diameters more than twice that";
+         << "; allowed is " << FreeMotionLimits::max_step << " diameters more than twice that";
     return fail(text.str());
   }
-  if (maximum[2] > Limits::max_path * diameter + 2. * driven_so_far) {
+  if (maximum[2] > FreeMotionLimits::max_path * diameter + 2. * driven_so_far) {
     text << "at time " << t << " a node has moved by " << maximum[2] << ", which is " << maximum[2] / diameter
-         << " times the diameter of the scene; allowed are " << Limits::max_path
+         << " times the diameter of the scene; allowed are " << FreeMotionLimits::max_path
          << " diameters more than twice the path of tools and supports";
     return fail(text.str());
   }

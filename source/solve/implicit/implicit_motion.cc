@@ -16,7 +16,7 @@ using dealii::Tensor;
 
 namespace {
 
-struct Limits {
+struct ImplicitMotionLimits {
   /// Error of each displacement or offset, as multiple of its last bit.
   static constexpr double last_bits = 10.;
 };
@@ -98,8 +98,8 @@ void ImplicitMotion::start_step(const double t_n, const double t, const Vector &
   step_.u_n = displacements;
   tools_.start_step(step_.length, offsets);
   held_.start_step(t_n, t);
-  const double last_bit =
-      Limits::last_bits * std::numeric_limits<double>::epsilon() * integrator_.mass_factor(step_.length);
+  const double last_bit = ImplicitMotionLimits::last_bits * std::numeric_limits<double>::epsilon() *
+                          integrator_.mass_factor(step_.length);
   const double n_nodes = static_cast<double>(discretization_.dof_handler().n_dofs()) / 3.;
   step_.round_off_force = last_bit * mass_.inertia().total() / std::sqrt(n_nodes) *
                           std::max(displacements.linfty_norm(), step_.length * start_.velocity.linfty_norm());

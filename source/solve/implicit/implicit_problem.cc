@@ -13,7 +13,7 @@ namespace billet {
 
 namespace {
 
-struct Limits {
+struct ImplicitProblemLimits {
   /// Force by round-off of displacements over that by the last bit of a displacement of the scene's
   /// size.
   static constexpr double last_bits = 100.;
@@ -69,7 +69,8 @@ double find_round_off_force(const Scene &scene, const Discretization &discretiza
     for (const AppliedLoad &load : body.loads)
       stiffest = std::max(stiffest, find_surface_stiffness(load, discretization, b, body.young_modulus));
   }
-  return Limits::last_bits * std::numeric_limits<double>::epsilon() * stiffest * discretization.radius();
+  return ImplicitProblemLimits::last_bits * std::numeric_limits<double>::epsilon() * stiffest *
+         discretization.radius();
 }
 
 } // namespace
@@ -234,7 +235,7 @@ double ImplicitProblem::max_step_length(const Vector &x, const Vector &direction
   set_trial(end);
   const double part = parts_.contacts().find_free_part(
       {from, step_.ghosted, tools_from, parts_.tools().placements(step_.time), false}, obstacle_);
-  return part < Limits::min_part ? 0. : part;
+  return part < ImplicitProblemLimits::min_part ? 0. : part;
 }
 
 double ImplicitProblem::find_free_part(const bool is_thorough) {

@@ -11,7 +11,7 @@ namespace billet {
 namespace {
 
 /// Limits of repeated steps.
-struct Limits {
+struct ImplicitSolutionLimits {
   /// Maximum number of raises of penalties in a step, each by a factor of at least 2. They exhaust
   /// the factor of 100 by which default penalties may rise.
   static constexpr unsigned int max_raises = 6;
@@ -83,7 +83,8 @@ NewtonReport ImplicitSolution::attempt(const double t, const double previous_ste
 }
 
 void ImplicitSolution::repeat(const double t, const double previous_step, NewtonReport &report) {
-  for (unsigned int n = 0; report.rejection == StepFailure::Kind::penetrates && n < Limits::max_raises; ++n) {
+  for (unsigned int n = 0;
+       report.rejection == StepFailure::Kind::penetrates && n < ImplicitSolutionLimits::max_raises; ++n) {
     append(report.diagnostics, rules_->raise_penalties());
     report.append_anew(attempt(t, previous_step));
   }

@@ -12,7 +12,7 @@ using dealii::Tensor;
 
 namespace {
 
-struct Limits {
+struct ResultantGuardLimits {
   /// Maximum number of failures in a row that count; each beyond the first doubles the number of
   /// steps without a trial, and adds one.
   static constexpr unsigned int max_failures = 7;
@@ -61,7 +61,7 @@ void ResultantGuard::commit() {
     --n_left_out_;
     return;
   }
-  n_failed_ = has_failed_ ? std::min(n_failed_ + 1, Limits::max_failures) : 0;
+  n_failed_ = has_failed_ ? std::min(n_failed_ + 1, ResultantGuardLimits::max_failures) : 0;
   n_left_out_ = has_failed_ ? (1U << (n_failed_ - 1)) - 1 : 0;
   has_failed_ = false;
 }

@@ -8,7 +8,7 @@ namespace billet {
 namespace {
 
 /// Limits of iterations that balance bodies, see ResultantGuard.
-struct Limits {
+struct StepAttemptLimits {
   /// Maximum number of refinements in a step.
   static constexpr unsigned int max_refinements = 2;
   /// Part of what may be out of balance that a refinement aims at, and the minimum factor of its
@@ -157,11 +157,11 @@ void StepAttempt::balance(Unknowns &x, NewtonReport &report) {
   double part = p_.guards.resultants.find_part();
   if (!p_.guards.resultants.is_hopeful() || report.is_stalled || report.is_lost_in_round_off)
     return;
-  for (unsigned int n = 0; n < Limits::max_refinements && part > ResultantGuard::allowed; ++n) {
+  for (unsigned int n = 0; n < StepAttemptLimits::max_refinements && part > ResultantGuard::allowed; ++n) {
     const Unknowns before = x;
-    const NewtonReport refined =
-        p_.solver.refine(std::max(Limits::min_factor, Limits::aim * ResultantGuard::allowed / part),
-                         x.offsets, x.displacements);
+    const NewtonReport refined = p_.solver.refine(
+        std::max(StepAttemptLimits::min_factor, StepAttemptLimits::aim * ResultantGuard::allowed / part),
+        x.offsets, x.displacements);
     if (refined.converged)
       report.append(refined);
     else {
