@@ -5,6 +5,8 @@ namespace billet {
 
 std::array<Usage::Entry, static_cast<std::size_t>(Capability::n)> Usage::entries;
 
+std::uint64_t ElementLoops::of_forces = 0, ElementLoops::of_tangents = 0;
+
 const char *name_of(const Capability capability) {
   switch (capability) {
   case Capability::plasticity:

@@ -3,18 +3,25 @@
 """Runs a command in a fresh folder and judges what came out.
 
 Usage: run_test.py said FOLDER EXIT_CODE REGEX COMMAND...
+       run_test.py numbers FOLDER NUMBERS_FILE NUMDIFF RANKS COMMAND...
        run_test.py compared FOLDER COMPARISON_FILE NUMDIFF COMMAND...
 
 'said': the exit code must be the expected one, and a line that the command prints must match.
 
-'compared': the file `output` that the command writes, or else all that it prints, must be COMPARISON_FILE or
-one of its variants (COMPARISON_FILE.*), as deal.II compares: numbers to 1e-8 relative or 1e-6. Of a file
-*.run_only nothing is compared. With UPDATE_OUTPUT=1 in the environment the result becomes the new
-COMPARISON_FILE.
+'numbers': the command's last word is the name of a test. What it prints as `number NAME = VALUE` must be the
+numbers of its line in NUMBERS_FILE, 'TEST[ on RANKS]: NAME = VALUE[ +- TOLERANCE]; ...': counts exactly, others
+to 1e-8 relative, unless the line says otherwise. If the test has a file TEST.output, the file `output` that the
+command writes is compared with it.
+
+'compared': the file `output` that the command writes, or else all that it prints, must be COMPARISON_FILE, as
+deal.II compares: numbers to 1e-8 relative or 1e-6.
+
+With UPDATE_OUTPUT=1 in the environment the result becomes the new line or file.
 """
 
 from __future__ import annotations
 
+import fcntl
 import os
 import re
 import shutil
@@ -38,6 +45,7 @@ VOLATILE = (
         " elements in 0 s: 0 ns for each element and step, 0 of",
     ),
 )
+UPDATES = os.environ.get("UPDATE_OUTPUT", "0") != "0"
 NUMDIFF_OPTIONS = ("-a", "1e-6", "-r", "1e-8", "-s", " \\t\\r\\n=,:;<>[](){}^")
 
 
@@ -82,32 +90,87 @@ def said(folder: Path, expected_code: int, regex: str, command: Sequence[str]) -
     return "" if re.search(regex, text, re.MULTILINE) else f"no line matches '{regex}'"
 
 
+def differences(comparison_file: Path, numdiff: str, text: str) -> str:
+    """Returns how a text differs from a file."""
+    for pattern, replacement in VOLATILE:
+        text = re.sub(pattern, replacement, text, flags=re.MULTILINE)
+    Path("output").write_text(text, encoding="utf-8")
+    if UPDATES:
+        shutil.copy("output", comparison_file)
+    done = subprocess.run(
+        [numdiff, *NUMDIFF_OPTIONS, comparison_file, "output"], capture_output=True, text=True
+    )
+    if done.returncode == 0:
+        return ""
+    lines = (done.stdout + done.stderr).splitlines()[:20]
+    return "\n".join([f"{Path.cwd()}/output differs from {comparison_file}:", *lines])
+
+
 def compared(folder: Path, comparison_file: Path, numdiff: str, command: Sequence[str]) -> str:
     """Runs the command and returns how its output differs."""
     code = run(folder, command)
     if code != 0:
         print(read("stdout"))
-        if os.path.exists("output"):
-            print("--- output so far:", read("output"), sep="\n")
         return f"exit code {code} from: {' '.join(command)}"
-    if comparison_file.suffix == ".run_only":
+    return differences(comparison_file, numdiff, read("output" if os.path.exists("output") else "stdout"))
+
+
+def parse_numbers(text: str) -> dict[str, tuple[float, float]]:
+    """Returns the numbers of a line by their names, with their tolerances."""
+    numbers = {}
+    for part in text.split("; "):
+        name, value = part.split(" = ")
+        number, _, tolerance = value.partition(" +- ")
+        exact = float(number)
+        numbers[name] = (exact, float(tolerance) if tolerance else 0 if exact.is_integer() else 1e-8 * abs(exact))
+    return numbers
+
+
+def update_line(file: Path, key: str, printed: dict[str, str], old: dict[str, tuple[float, float]]) -> None:
+    """Writes the numbers that a test printed to its line, those that are in it or all if it has none. Tolerances
+    stay."""
+    with open(file, "r+", encoding="utf-8") as table:
+        fcntl.flock(table, fcntl.LOCK_EX)
+        lines = table.read().splitlines()
+        for i, line in enumerate(lines):
+            if line.startswith(f"{key}: "):
+                tolerances = dict(re.findall(r"([^;:]+?) = \S+( \+- \S+)", line.partition(": ")[2]))
+                tolerances = {name.strip(): tolerance for name, tolerance in tolerances.items()}
+                numbers = [
+                    f"{name} = {value}{tolerances.get(name, '')}"
+                    for name, value in printed.items()
+                    if name in old or set(old) == {"checks"} and old["checks"][0] == 0
+                ]
+                lines[i] = f"{key}: {'; '.join(numbers)}"
+        table.seek(0)
+        table.truncate()
+        table.write("\n".join(lines) + "\n")
+
+
+def numbers_of(folder: Path, file: Path, numdiff: str, ranks: int, command: Sequence[str]) -> str:
+    """Runs the command and returns which of its numbers are off."""
+    code = run(folder, command)
+    text = read("stdout")
+    print(text)
+    if code != 0:
+        return f"exit code {code} from: {' '.join(command)}"
+    test = command[-1]
+    key = test if ranks == 1 else f"{test} on {ranks}"
+    line = next(one for one in file.read_text("utf-8").splitlines() if one.startswith(f"{key}: "))
+    expected = parse_numbers(line.partition(": ")[2])
+    printed = dict(re.findall(r"^number (.*) = (\S+)$", text, re.MULTILINE))
+    if UPDATES:
+        update_line(file, key, printed, expected)
         return ""
-    text = read("output" if os.path.exists("output") else "stdout")
-    for pattern, replacement in VOLATILE:
-        text = re.sub(pattern, replacement, text, flags=re.MULTILINE)
-    Path("output").write_text(text, encoding="utf-8")
-    if os.environ.get("UPDATE_OUTPUT", "0") != "0":
-        shutil.copy("output", comparison_file)
-    variants = sorted(comparison_file.parent.glob(comparison_file.name + "*"))
-    differences = []
-    for variant in variants:
-        done = subprocess.run([numdiff, *NUMDIFF_OPTIONS, variant, "output"], capture_output=True, text=True)
-        if done.returncode == 0:
-            return ""
-        differences.append("\n".join((done.stdout + done.stderr).splitlines()[:20]))
-    return (
-        f"{folder}/output differs from {comparison_file}:\n{differences[0] if variants else 'there is none'}"
-    )
+    faults = [
+        f"{name} = {printed.get(name, 'missing')}, expected {value:.12g} +- {tolerance:g}"
+        for name, (value, tolerance) in expected.items()
+        if not abs(float(printed.get(name, "nan")) - value) <= tolerance
+    ]
+    output = file.parent / f"{test}.output"
+    if output.exists():
+        faults += filter(None, [differences(output, numdiff, read("output"))])
+    return "\n".join(faults)
 
 
 def main() -> int:
@@ -115,6 +178,8 @@ def main() -> int:
     how, folder, first, second, *command = sys.argv[1:]
     if how == "said":
         fault = said(Path(folder), int(first), second, command)
+    elif how == "numbers":
+        fault = numbers_of(Path(folder), Path(first), second, int(command[0]), command[1:])
     else:
         fault = compared(Path(folder), Path(first), second, command)
     if fault:

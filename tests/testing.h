@@ -12,21 +12,18 @@
 #include <cmath>
 #include <iostream>
 #include <random>
+#include <sstream>
 #include <string>
 
-/// What the tests share. A test prints one line per case, `name: ok` or `name: FAILED: error e > tolerance
-/// t`, so that its .output holds names only, and ends with `return billet::testing::exit_code();`.
+/// What the tests share.
 namespace billet::testing {
 
-/// An error that is not a number fails.
+/// Checks that an error is at most the tolerance; one that is not a number fails.
 inline void check(const std::string &name, const double error, const double tolerance) {
-  std::cout << name << ": ";
-  if (error <= tolerance)
-    std::cout << "ok" << std::endl;
-  else {
-    std::cout << "FAILED: error " << error << " > " << tolerance << std::endl;
-    ++n_failures();
-  }
+  std::ostringstream detail;
+  detail.precision(3);
+  detail << " (error " << error << ", at most " << tolerance << ")";
+  report_check(name, error <= tolerance, detail.str());
 }
 
 /// Whether a is b but for this part of it.

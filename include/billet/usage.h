@@ -63,6 +63,11 @@ private:
   static std::array<Entry, static_cast<std::size_t>(Capability::n)> entries;
 };
 
+/// Loops over all elements of this process: those for forces alone, and those for the tangent.
+struct ElementLoops {
+  static std::uint64_t of_forces, of_tangents;
+};
+
 /// Records the memory that an object allocates for a capability, for the lifetime of the object.
 class HeldMemory {
 public:

@@ -31,9 +31,10 @@ constexpr double one_plane = 0.99;
 template <class Facet> class Choice {
 public:
   Choice(const MovedFacets &facets, const unsigned int node, const FacetSearch::Positions &positions_n,
-         const ContactLimits &limits, const GapOffset &gap_offset)
+         const ContactLimits &limits, const GapOffset &gap_offset, const bool has_pressed = false)
       : facets_(facets), search_(facets.search()), positions_n_(positions_n), limits_(limits), node_(node),
-        x_n_(positions_n[node]), x_(facets.position(node)), gap_offset_(gap_offset) {}
+        x_n_(positions_n[node]), x_(facets.position(node)), gap_offset_(gap_offset),
+        has_pressed_(has_pressed) {}
 
   const TouchedFacet &best() const { return best_; }
 
@@ -146,7 +147,7 @@ private:
     const SurfaceFacet &target = search_.facets()[touched.facet];
     const PlanedFacet plane(corners_of(target, positions_n_));
     const double penetration = gap_offset_.at_start - raised(plane.project(x_n_, {}), target).gap;
-    if (penetration <= in_line * plane.radius())
+    if (has_pressed_ || penetration <= in_line * plane.radius())
       return true;
     touched.offset = penetration_of(touched);
     return penetration <= target.reach && !is_out(touched);
@@ -212,6 +213,7 @@ private:
   const unsigned int node_;
   const Tensor<1, 3> x_n_, x_;
   const GapOffset gap_offset_;
+  const bool has_pressed_;
   std::optional<Tensor<1, 3>> normal_; ///< of the node, computed on first use
   TouchedFacet best_;
 };
@@ -221,9 +223,10 @@ private:
 template <class Facet>
 TouchedFacet choose_facet(const MovedFacets &facets, const std::size_t slave,
                           const FacetSearch::Positions &positions_n, const TouchedFacet &last,
-                          const ContactLimits &limits, const GapOffset &gap_offset) {
+                          const ContactLimits &limits, const GapOffset &gap_offset, const bool has_pressed) {
   const FacetSearch &search = facets.search();
-  Choice<Facet> choice(facets, search.slaves()[slave].node, positions_n, limits, gap_offset);
+  Choice<Facet> choice(facets, search.slaves()[slave].node, positions_n, limits, gap_offset,
+                       has_pressed && !last.exists());
   if (last.exists()) {
     choice.consider_held(last);
     if (!choice.best().exists())
@@ -276,7 +279,7 @@ Tensor<1, 3> compute_node_normal(const MovedFacets &facets, const unsigned int n
 #define BILLET_INSTANTIATE(Facet)                                                                            \
   template TouchedFacet choose_facet<Facet>(const MovedFacets &, std::size_t,                                \
                                             const FacetSearch::Positions &, const TouchedFacet &,            \
-                                            const ContactLimits &, const GapOffset &);                       \
+                                            const ContactLimits &, const GapOffset &, bool);                 \
   template TouchedFacet keep_facet<Facet>(const MovedFacets &, std::size_t, const FacetSearch::Positions &,  \
                                           const TouchedFacet &, const ContactLimits &, const GapOffset &);
 BILLET_INSTANTIATE(PlanedFacet)

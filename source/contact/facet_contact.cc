@@ -33,8 +33,9 @@ void FacetContact::update_surfaces(const Positions &positions_n, const Positions
     if (parts_.edges)
       parts_.edges->rebuild(surfaces);
     // Indices of ghosts have changed.
-    parts_.start.find_facets(surfaces.search().facets());
+    parts_.start.forget_indices();
   }
+  parts_.start.find_facets(surfaces.search().facets());
   if (parts_.overlaps)
     parts_.overlaps->update(surfaces, parts_.slaves, parts_.offsets);
 }

@@ -56,7 +56,7 @@ TouchedFacet SlaveFinder<Facet>::choose(const std::size_t s, const TouchedFacet 
     touched = keep_facet<Facet>(facets, s, positions_n, last_iteration, parts_.settings.limits, gap_offset);
   if (!touched.exists())
     touched = choose_facet<Facet>(facets, s, positions_n, parts_.start.touched(s), parts_.settings.limits,
-                                  gap_offset);
+                                  gap_offset, parts_.start.pressed(s).pressure > 0.);
   return touched;
 }
 

@@ -27,6 +27,9 @@ void SlaveStart::set(const std::size_t s, const TouchedFacet &touched,
 }
 
 void SlaveStart::find_facets(const std::vector<SurfaceFacet> &facets) {
+  if (has_indices_)
+    return;
+  has_indices_ = true;
   std::unordered_map<std::uint64_t, unsigned int> index;
   for (unsigned int f = 0; f < facets.size(); ++f)
     index.emplace(facets[f].key, f);
@@ -58,6 +61,7 @@ void SlaveStart::save(StateWriter &writer, const std::vector<std::uint64_t> &key
 void SlaveStart::load(const StateReader &reader, const std::vector<std::uint64_t> &keys,
                       const bool has_started) {
   has_started_ = has_started;
+  has_indices_ = false;
   // Slaves may be new if the pair had one pass before.
   std::vector<bool> is_known;
   const std::vector<double> touches = reader.read_rows("touched", touch_width, keys, &is_known);

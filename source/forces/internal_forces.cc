@@ -92,6 +92,7 @@ void InternalForces::count() const {
 bool InternalForces::assemble_forces(const Vector &displacements, Vector &forces) {
   discard_evaluated_summaries();
   count();
+  ++ElementLoops::of_forces;
   ElementVectors force{};
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const auto &elements = discretization_.elements(b);
@@ -108,6 +109,7 @@ bool InternalForces::assemble_tangent(const Vector &displacements, const Tangent
                                       const double yield_slack) {
   discard_evaluated_summaries();
   count();
+  ++ElementLoops::of_tangents;
   ElementVectors force{};
   ElementMatrix tangent{};
   PointStep step = step_;

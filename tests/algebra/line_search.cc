@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+namespace line_search_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::near;
@@ -152,11 +154,11 @@ void check_linear_solutions() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(line_search) {
   check_cuts();
   check_trials();
   check_stagnation();
   check_linear_solutions();
-  return testing::exit_code();
 }
+
+} // namespace line_search_test

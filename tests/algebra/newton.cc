@@ -10,6 +10,8 @@
 #include <functional>
 #include <limits>
 
+namespace newton_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -80,8 +82,7 @@ bool is_root(const double x) { return std::abs(x - std::sqrt(2.)) < 1e-9; }
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(newton) {
   {
     Root root;
     const Run result = run(root, 1.5, make_options());
@@ -149,5 +150,6 @@ int main(int argc, char *argv[]) {
                   tolerance <= std::max(options.max_linear_tolerance, 0.1);
     check("tolerances follow the iterations", are_loose && root.tolerances.back() < root.tolerances[0]);
   }
-  return testing::exit_code();
 }
+
+} // namespace newton_test

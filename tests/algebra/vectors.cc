@@ -8,12 +8,13 @@
 
 #include <sstream>
 
+namespace vectors_test {
+
 using namespace billet;
 using billet::testing::check;
 using dealii::Utilities::MPI::sum;
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(vectors) {
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
                      n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   std::ostringstream silence;
@@ -53,5 +54,6 @@ int main(int argc, char *argv[]) {
   const unsigned int n_wrong = count_owned_entries(matrix) == 2 * n_each - (rank == 0 ? 1 : 0) ? 0 : 1;
   check("entries of a matrix are counted by rank", sum(n_wrong, MPI_COMM_WORLD) == 0);
   std::cout.rdbuf(console); // `silence` goes first
-  return testing::exit_code();
 }
+
+} // namespace vectors_test

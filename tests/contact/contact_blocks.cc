@@ -19,6 +19,8 @@
 #include <map>
 #include <set>
 
+namespace contact_blocks_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Point;
@@ -338,13 +340,13 @@ void check_tangent(const Bodies &bodies, const FacetMethod method, const Frictio
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(contact_blocks) {
   const Bodies bodies;
   for (const auto &[method, name] : {std::pair<FacetMethod, std::string>{FacetMethod::planed, "planed"},
                                      {FacetMethod::overlap, "overlap"}}) {
     check_tangent(bodies, method, nullptr, name + ", no friction");
     check_tangent(bodies, method, make_coulomb(0.2), name + ", friction");
   }
-  return dealii::Utilities::MPI::max(exit_code(), communicator);
 }
+
+} // namespace contact_blocks_test

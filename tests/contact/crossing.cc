@@ -10,6 +10,8 @@
 
 #include <cmath>
 
+namespace crossing_test {
+
 using namespace billet;
 using billet::testing::check;
 using dealii::Tensor;
@@ -219,9 +221,9 @@ void check_facets() {
 
 } // namespace
 
-int main(int argc, char **argv) {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(crossing) {
   check_formulas();
   check_facets();
-  return billet::testing::exit_code();
 }
+
+} // namespace crossing_test

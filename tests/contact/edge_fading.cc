@@ -7,6 +7,8 @@
 
 #include <string>
 
+namespace edge_fading_test {
+
 using namespace billet;
 using billet::testing::central_difference;
 using billet::testing::check;
@@ -95,7 +97,7 @@ void check_edge(const std::string &name, const HardeningSpring &spring, const do
 
 } // namespace
 
-int main() {
+BILLET_TEST(edge_fading) {
   const HardeningSpring linear{1e4}, hardening{1e4, 0.01};
   for (const auto &[name, spring] : {std::pair("linear", linear), std::pair("hardening", hardening)}) {
     const std::string prefix = std::string(name) + " spring, ";
@@ -103,5 +105,6 @@ int main() {
     check_edge(prefix + "corner", spring, 0., [](const Tensor<1, 3> &x) { return beside_round_edge(x, 0.); });
     check_edge(prefix + "disc", spring, 0.3, [](const Tensor<1, 3> &x) { return beside_round_edge(x, 0.3); });
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace edge_fading_test

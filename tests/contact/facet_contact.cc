@@ -12,6 +12,8 @@
 
 #include <algorithm>
 
+namespace facet_contact_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -550,8 +552,7 @@ void check_ranks(const Surface &surface, const FacetContactSettings &settings, c
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(facet_contact) {
   for (const auto &[method, name] : {std::make_pair(FacetMethod::planed, std::string("planed")),
                                      std::make_pair(FacetMethod::bilinear, std::string("bilinear"))}) {
     check_known_force(method, name);
@@ -576,5 +577,6 @@ int main(int argc, char *argv[]) {
   check_potential_of_edges("roofs, skew", Tensor<1, 3>({0.3, 0.2, 0.}));
   check_potential_of_edges("roofs at an end", Tensor<1, 3>({0.3, 0.9, 0.}));
   check_potential_of_edges("roofs at both ends", Tensor<1, 3>({-0.7, 0.8, 0.}));
-  return exit_code();
 }
+
+} // namespace facet_contact_test

@@ -8,6 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace facet_penalties_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -141,12 +143,12 @@ void check_stiffening_under_load(const FacetMethod method, const std::string &na
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(facet_penalties) {
   for (const auto &[method, name] : {std::pair<FacetMethod, std::string>{FacetMethod::planed, "planed: "},
                                      {FacetMethod::overlap, "overlap: "}}) {
     check_augmentation(method, name);
     check_stiffening_under_load(method, name);
   }
-  return exit_code();
 }
+
+} // namespace facet_penalties_test

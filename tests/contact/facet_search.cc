@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <set>
 
+namespace facet_search_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -266,7 +268,7 @@ void check_alignment() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(facet_search) {
   using Partners = FacetSearch::Partners;
   check_nothing_is_missed(Partners::other_surfaces, 1e-3, 200, "three bodies");
   check_nothing_is_missed(Partners::other_surfaces_and_self, 1e-3, 100, "with themselves");
@@ -276,5 +278,6 @@ int main() {
   check_choice<BilinearFacet>("bilinear");
   check_self_contact();
   check_alignment();
-  return exit_code();
 }
+
+} // namespace facet_search_test

@@ -11,6 +11,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace facet_tangent_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -142,8 +144,7 @@ void check_tangents(const FacetMethod method, const FrictionPointer &law, const 
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(facet_tangent) {
   const std::vector<std::pair<FacetMethod, std::string>> methods{{FacetMethod::planed, "planed"},
                                                                  {FacetMethod::mean_gap, "mean gap"},
                                                                  {FacetMethod::bilinear, "bilinear"},
@@ -156,5 +157,6 @@ int main(int argc, char *argv[]) {
     if (method != FacetMethod::mean_gap)
       check_tangents(method, make_coulomb(0.3), name + ", friction on curved facets", 2e-3);
   }
-  return exit_code();
 }
+
+} // namespace facet_tangent_test

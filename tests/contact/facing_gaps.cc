@@ -5,6 +5,8 @@
 
 #include "../testing.h"
 
+namespace facing_gaps_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -62,9 +64,10 @@ void check_directions() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(facing_gaps) {
   check_gaps();
   check_overlaps();
   check_directions();
-  return exit_code();
 }
+
+} // namespace facing_gaps_test

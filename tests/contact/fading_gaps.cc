@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace fading_gaps_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -117,10 +119,10 @@ void check_other_schemes() {
 
 } // namespace
 
-int main(int argc, char **argv) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(fading_gaps) {
   check_statics();
   check_explicit();
   check_other_schemes();
-  return exit_code();
 }
+
+} // namespace fading_gaps_test

@@ -5,6 +5,8 @@
 
 #include "../testing.h"
 
+namespace frame_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::WorstError;
@@ -25,7 +27,7 @@ double defect(const Frame &frame) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(frame) {
   billet::testing::Random random;
   const Tensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
   Tensor<1, 3> z;
@@ -59,5 +61,6 @@ int main() {
   check("normal turned by 90 degrees onto q", defect(frame.transported(identity, frame.q)), 1e-14);
   check("normal turned by 90 degrees onto r", defect(frame.transported(identity, frame.r)), 1e-14);
   check("normal reversed", defect(frame.transported(identity, -frame.n)), 1e-14);
-  return billet::testing::exit_code();
 }
+
+} // namespace frame_test

@@ -9,6 +9,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace friction_cycles_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -94,9 +96,9 @@ void check_cycles(const FacetMethod method, const std::string &name) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(friction_cycles) {
   check_cycles(FacetMethod::planed, "planed");
   check_cycles(FacetMethod::overlap, "overlap");
-  return exit_code();
 }
+
+} // namespace friction_cycles_test

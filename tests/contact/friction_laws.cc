@@ -10,6 +10,8 @@
 
 #include "../testing.h"
 
+namespace friction_laws_test {
+
 using namespace billet;
 using billet::testing::central_difference;
 using billet::testing::check;
@@ -80,7 +82,7 @@ void check_law(const std::string &name, const FrictionLaw &law) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(friction_laws) {
   check_law("Coulomb", Coulomb{0.3});
   check_law("shear limited", ShearLimited{0.3, 1e9});
   check_law("shear limited, at its limit", ShearLimited{0.3, 1.});
@@ -96,5 +98,6 @@ int main() {
         1e-13);
   check("pressure dependent at its reference",
         std::abs(PressureDependent{0.3, 200., 0.7}.limit(200., 0.).value - 60.), 1e-13);
-  return billet::testing::exit_code();
 }
+
+} // namespace friction_laws_test

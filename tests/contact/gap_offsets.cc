@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+namespace gap_offsets_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -82,9 +84,10 @@ void check_restless() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(gap_offsets) {
   check_multipliers();
   check_penetrations();
   check_restless();
-  return exit_code();
 }
+
+} // namespace gap_offsets_test

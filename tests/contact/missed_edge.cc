@@ -10,6 +10,8 @@
 
 #include <cmath>
 
+namespace missed_edge_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -25,8 +27,8 @@ ContactPoint make_node() {
 }
 
 struct Edge {
-  Surface surface = make_surface("extruded profile", "set Corners = -1, 0 ; 0, 0\nset Axis = 0, -1, 0\n"
-                                                     "set Direction = 1, 0, 0");
+  SharedSurface surface = make_surface("extruded profile", "set Corners = -1, 0 ; 0, 0\nset Axis = 0, -1, 0\n"
+                                                           "set Direction = 1, 0, 0");
   ToolStep step{*surface, Placement()};
   NeighbouringTools neighbours;
   MissedEdge edge{step, neighbours};
@@ -59,7 +61,7 @@ void check_zone() {
 void check_neighbours() {
   Edge edge;
   const ContactPoint node = make_node();
-  const Surface plane = make_surface("plane", "set Point = 0, 0, -0.5");
+  const SharedSurface plane = make_surface("plane", "set Point = 0, 0, -0.5");
   ToolStep other(*plane, Placement());
   edge.neighbours.add(other);
   check("another tool below the edge: no node misses it", !edge.misses(node, at(0.2, -0.1)));
@@ -127,9 +129,10 @@ void check_return() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(missed_edge) {
   check_zone();
   check_neighbours();
   check_return();
-  return exit_code();
 }
+
+} // namespace missed_edge_test

@@ -7,11 +7,13 @@
 
 #include "../testing.h"
 
+namespace pressure_record_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
 
-int main() {
+BILLET_TEST(pressure_record) {
   Random random;
   Placement placement;
   placement.rotation = random.rotation();
@@ -57,5 +59,6 @@ int main() {
   MemoryWriter writer_of_nothing(empty);
   loaded.save(writer_of_nothing, {"", 0, 2, {5, 4}});
   check("a record that is not known is not saved", empty.rows.empty() && !loaded.has_pressure());
-  return exit_code();
 }
+
+} // namespace pressure_record_test

@@ -5,6 +5,8 @@
 
 #include "../testing.h"
 
+namespace projected_areas_test {
+
 using namespace billet;
 using billet::testing::central_difference;
 using billet::testing::check;
@@ -38,7 +40,7 @@ Corners make_facet(billet::testing::Random &random, const double disorder) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(projected_areas) {
   billet::testing::Random random;
   Corners flat = make_facet(random, 0.);
   WorstError quarter;
@@ -80,5 +82,6 @@ int main() {
   }
   check("derivatives over positions", of_positions.value(), 1e-10);
   check("derivatives over normals", of_normals.value(), 1e-10);
-  return billet::testing::exit_code();
 }
+
+} // namespace projected_areas_test

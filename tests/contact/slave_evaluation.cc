@@ -11,6 +11,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace slave_evaluation_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -220,8 +222,7 @@ void check_forces(const std::string &name, const FacetMethod method) {
 
 } // namespace
 
-int main(int argc, char **argv) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(slave_evaluation) {
   check_finder<PlanedFacet>("planed", FacetMethod::planed);
   check_finder<MeanGapFacet>("mean gap", FacetMethod::mean_gap);
   check_finder<BilinearFacet>("bilinear", FacetMethod::bilinear);
@@ -230,5 +231,6 @@ int main(int argc, char **argv) {
   check_forces("mean gap", FacetMethod::mean_gap);
   check_forces("bilinear", FacetMethod::bilinear);
   check_forces("overlap", FacetMethod::overlap);
-  return exit_code();
 }
+
+} // namespace slave_evaluation_test

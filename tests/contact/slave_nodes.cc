@@ -8,6 +8,8 @@
 
 #include <vector>
 
+namespace slave_nodes_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -87,8 +89,9 @@ void check_start() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(slave_nodes) {
   check_slaves();
   check_start();
-  return exit_code();
 }
+
+} // namespace slave_nodes_test

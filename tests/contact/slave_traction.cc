@@ -11,6 +11,8 @@
 
 #include "../geometry/facet_samples.h"
 
+namespace slave_traction_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::Random;
@@ -406,7 +408,7 @@ void check_parts_of_steps() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(slave_traction) {
   check_parts_of_steps();
   check_balance<PlanedFacet>("planed");
   check_balance<BilinearFacet>("bilinear");
@@ -417,5 +419,6 @@ int main() {
   check_slip_rate();
   check_account(0.5, "trapezoidal");
   check_account(0., "end value's");
-  return billet::testing::exit_code();
 }
+
+} // namespace slave_traction_test

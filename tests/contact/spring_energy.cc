@@ -5,12 +5,14 @@
 
 #include "../testing.h"
 
+namespace spring_energy_test {
+
 using namespace billet;
 using billet::testing::central_difference;
 using billet::testing::check;
 using billet::testing::WorstError;
 
-int main() {
+BILLET_TEST(spring_energy) {
   constexpr double limit = 2.5;
   billet::testing::Random random;
   WorstError derivative, share, on_one, jump, no_area;
@@ -41,5 +43,6 @@ int main() {
   check("energies are continuous where nodes become deep", jump.value(), 1e-10);
   check("without an area before, all stands on the current one", no_area.value(), 1e-14);
   check("what is not split stands on the current area", on_one.value(), 1e-14);
-  return billet::testing::exit_code();
 }
+
+} // namespace spring_energy_test

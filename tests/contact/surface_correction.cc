@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+namespace surface_correction_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -38,7 +40,7 @@ double max_tilt_around(const Correction &correction, const Tensor<1, 3> &at, con
 
 } // namespace
 
-int main() {
+BILLET_TEST(surface_correction) {
   const Tensor<1, 3> at({1., 2., 3.}), z({0., 0., 1.});
   const Correction axis{Correction::Kind::cylinder, at, z};
   check("cylinder", max_tilt_around(axis, at, 5., 5.), 1e-12);
@@ -53,5 +55,6 @@ int main() {
   check("sphere", max_tilt_around(centre, at, 5., 5.), 1e-12);
   const Correction below{Correction::Kind::sphere, at, {}};
   check("centre below", std::abs(max_tilt_around(below, at, 5., 5.) / (0.5 / radius) - 1.), 0.01);
-  return exit_code();
 }
+
+} // namespace surface_correction_test

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 
+namespace surface_exchange_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -148,8 +150,7 @@ void check_far_apart() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(surface_exchange) {
   using Partners = FacetSearch::Partners;
   const std::size_t n = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   check_split("stripes", Partners::other_surfaces, [&](const std::size_t f) { return f / 10 % n; });
@@ -160,5 +161,6 @@ int main(int argc, char *argv[]) {
   check_split("one rank has all", Partners::other_surfaces, [&](const std::size_t) { return n - 1; });
   check_split("nobody has anything", Partners::other_surfaces, [&](const std::size_t) { return n; });
   check_far_apart();
-  return exit_code();
 }
+
+} // namespace surface_exchange_test

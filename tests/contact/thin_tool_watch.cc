@@ -11,17 +11,19 @@
 #include <cmath>
 #include <string>
 
+namespace thin_tool_watch_test {
+
 using namespace billet;
 using billet::testing::check;
 using dealii::Tensor;
 
-int main() {
+BILLET_TEST(thin_tool_watch) {
   const auto ball = billet::testing::make_surface("sphere", "set Radius = 0.05");
   check("a tool thicker than two facets is not watched", !ThinToolWatch::make(*ball, 0.049));
   auto watch = ThinToolWatch::make(*ball, 0.051);
   check("a thinner one is", watch.has_value());
   if (!watch)
-    return billet::testing::exit_code();
+    return;
   check("thickness", std::abs(watch->thickness() - 0.1), 1e-12);
   check("no positions are known at first", !watch->knows_positions());
 
@@ -59,5 +61,6 @@ int main() {
 #endif
   watch->forget();
   check("positions are dropped", !watch->knows_positions());
-  return billet::testing::exit_code();
 }
+
+} // namespace thin_tool_watch_test

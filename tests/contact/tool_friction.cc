@@ -9,6 +9,8 @@
 #include "../geometry/make_surface.h"
 #include "../testing.h"
 
+namespace tool_friction_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -52,7 +54,7 @@ public:
   }
   double elastic_slip() const { return friction_.elastic_slip(0, nodes_[0], state_); }
 
-  Surface surface_ = make_surface("plane", "");
+  SharedSurface surface_ = make_surface("plane", "");
   Coulomb law_{coefficient};
   ToolStep step_{*surface_, Placement()};
   PressureRecord pressures_;
@@ -205,7 +207,7 @@ void check_checkpoint() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(tool_friction) {
   check_stick_and_slip();
   check_moving_tool();
   check_entry();
@@ -213,5 +215,6 @@ int main() {
   check_release();
   check_fading();
   check_checkpoint();
-  return exit_code();
 }
+
+} // namespace tool_friction_test

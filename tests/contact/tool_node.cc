@@ -13,6 +13,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace tool_node_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -26,7 +28,7 @@ const std::array<ContactStiffness, 2> stiffness{{{1e3, 400.}, {2e3, 500.}}};
 const char *const half_plane_lines = "set Corners = -1, 0 ; 0, 0\nset Axis = 0, -1, 0\n"
                                      "set Direction = 1, 0, 0";
 
-parameters::Scene make_scene(const Surface &surface, const bool has_friction, const Scheme scheme) {
+parameters::Scene make_scene(const SharedSurface &surface, const bool has_friction, const Scheme scheme) {
   const std::string scenes = std::string(SOURCE_DIR) + "/../scenes/";
   parameters::Scene parameters = parameters::Scene::read(scenes + "hard_blow.prm");
   parameters.bodies[0].mesh.arguments = "2, 2, 1 : -0.5, -0.5, 0 : 0.5, 0.5, 0.5 : true";
@@ -43,7 +45,8 @@ parameters::Scene make_scene(const Surface &surface, const bool has_friction, co
 
 /// Two nodes of known stiffness on a tool; the others of the block play no part.
 struct Bench {
-  Bench(const Surface &surface, const bool has_friction, const Scheme scheme, const ContactTangent of_kind)
+  Bench(const SharedSurface &surface, const bool has_friction, const Scheme scheme,
+        const ContactTangent of_kind)
       : scene(make_scene(surface, has_friction, scheme)), discretization(scene, MPI_COMM_WORLD),
         parts(scene, scene.pairs()[0], discretization), kind(of_kind) {
     parts.step.duration = duration;
@@ -157,7 +160,7 @@ void check_plane(const std::string &name, const bool has_friction, const Scheme 
 }
 
 void check_curvature(const std::string &name, const bool has_friction, const Scheme scheme) {
-  const Surface ball = make_surface("sphere", "set Centre = 0, 0, -2\nset Radius = 2");
+  const SharedSurface ball = make_surface("sphere", "set Centre = 0, 0, -2\nset Radius = 2");
   const Tensor<1, 3> at({0.3, -0.2, -0.04}), motion({0.02, 0.01, 0.});
   for (const ContactTangent kind : {ContactTangent::exact, ContactTangent::consistent}) {
     Bench bench(ball, has_friction, scheme, kind);
@@ -171,7 +174,7 @@ void check_curvature(const std::string &name, const bool has_friction, const Sch
 }
 
 void check_rest(const std::string &name, const bool has_friction) {
-  const Surface plane = make_surface("plane", "");
+  const SharedSurface plane = make_surface("plane", "");
   for (const bool has_inertia : {false, true}) {
     Bench bench(plane, has_friction, has_inertia ? Scheme::implicit_dynamics : Scheme::quasi_static,
                 ContactTangent::exact);
@@ -199,7 +202,7 @@ void check_rest(const std::string &name, const bool has_friction) {
 }
 
 void check_edge(const std::string &name, const bool has_friction) {
-  const Surface half_plane = make_surface("extruded profile", half_plane_lines);
+  const SharedSurface half_plane = make_surface("extruded profile", half_plane_lines);
   const Tensor<1, 3> beyond({0.2, 0.3, -0.1}), below({-0.2, 0.3, -0.1}), on_edge({0.02, 0.3, -0.01});
   for (const bool has_inertia : {false, true}) {
     Bench bench(half_plane, has_friction, has_inertia ? Scheme::implicit_dynamics : Scheme::quasi_static,
@@ -275,8 +278,7 @@ void check_evaluation() {
 
 } // namespace
 
-int main(int argc, char **argv) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(tool_node) {
   for (const bool has_friction : {false, true})
     for (const bool has_inertia : {false, true}) {
       const Scheme scheme = has_inertia ? Scheme::implicit_dynamics : Scheme::quasi_static;
@@ -292,5 +294,6 @@ int main(int argc, char **argv) {
     check_edge(name, has_friction);
   }
   check_evaluation();
-  return exit_code();
 }
+
+} // namespace tool_node_test

@@ -9,6 +9,8 @@
 #include <array>
 #include <vector>
 
+namespace traction_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::WorstError;
@@ -173,9 +175,10 @@ void check_variants() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(traction) {
   check_cone_and_return();
   check_tangents();
   check_variants();
-  return billet::testing::exit_code();
 }
+
+} // namespace traction_test

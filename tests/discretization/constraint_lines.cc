@@ -19,6 +19,8 @@
 
 #include <map>
 
+namespace constraint_lines_test {
+
 using billet::DofIndex;
 using billet::Vector;
 
@@ -81,8 +83,7 @@ double sum(const Vector &vector, const MPI_Comm communicator) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(constraint_lines) {
   const MPI_Comm communicator = MPI_COMM_WORLD;
   dealii::parallel::fullydistributed::Triangulation<3> mesh(communicator);
   make_mesh(mesh);
@@ -197,6 +198,6 @@ int main(int argc, char *argv[]) {
     check("All ranks learn that a method does not support hanging nodes", refused);
     check("A mesh refined as a whole has none", !refused_in_error);
   }
-  const int code = billet::testing::exit_code();
-  return dealii::Utilities::MPI::max(code, communicator);
 }
+
+} // namespace constraint_lines_test

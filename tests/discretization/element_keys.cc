@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
+namespace element_keys_test {
+
 using billet::testing::check;
 
 namespace {
@@ -27,7 +29,7 @@ dealii::CellId cell_id_of(billet::ElementKey key) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(element_keys) {
   dealii::Triangulation<3> mesh;
   dealii::GridGenerator::subdivided_hyper_cube(mesh, 3);
   bool are_numbers = true;
@@ -79,5 +81,6 @@ int main() {
     is_refused = true;
   }
   check("One level more is refused", is_refused);
-  return billet::testing::exit_code();
 }
+
+} // namespace element_keys_test

@@ -11,6 +11,8 @@
 #include "billet/material/law_adapter.h"
 #include "billet/material/neo_hookean.h"
 
+namespace added_elasticity_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -107,8 +109,7 @@ void check_flow_rules() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_elasticity) {
   elasticity_types().add(isotropic_elasticity_type("quadratic volume", "pressure linear in J", &make_law));
   const ElasticityType &type = *elasticity_types().find("quadratic volume");
   const ElasticModuli moduli{3., 1.};
@@ -129,5 +130,6 @@ int main(int argc, char *argv[]) {
             1e-2);
     }
   check_flow_rules();
-  return testing::exit_code();
 }
+
+} // namespace added_elasticity_test

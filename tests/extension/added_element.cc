@@ -14,6 +14,8 @@
 #include "billet/scene/plausibility.h"
 #include "billet/solve/element_watch.h"
 
+namespace added_element_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -321,8 +323,7 @@ end
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_element) {
   element_types().add(make_type());
   check_bending();
   check_plane_factors();
@@ -344,5 +345,6 @@ int main(int argc, char *argv[]) {
   const auto found = testing::pull_explicitly("fully integrated", elastic, 1.001, 2e-4),
              wanted = testing::pull("mean dilatation", elastic, 1.001, 1., 1);
   check("elastic, explicit", std::abs(found.elastic / wanted.elastic - 1.), 2e-3);
-  return testing::exit_code();
 }
+
+} // namespace added_element_test

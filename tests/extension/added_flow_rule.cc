@@ -7,6 +7,8 @@
 
 #include "billet/material/flow_rule.h"
 
+namespace added_flow_rule_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -42,8 +44,7 @@ void compare(const std::string &name, const std::string &added, const double of_
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_flow_rule) {
   thermal_factor_types().add({"exponential", "exp(-T/100)", {}, [](const TypeInput &) {
                                 return std::make_shared<const ExponentialFactor>();
                               }});
@@ -60,5 +61,6 @@ int main(int argc, char *argv[]) {
   compare("thermal factor", "set Thermal factor = exponential\nset Temperature = 40\n", std::exp(-0.4),
           std::exp(-0.4));
   compare("anisotropy", "set Anisotropy = weak\nset Weakness = 0.5\n", 0.5, 0.25);
-  return testing::exit_code();
 }
+
+} // namespace added_flow_rule_test

@@ -9,6 +9,8 @@
 
 #include <fstream>
 
+namespace added_friction_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -161,8 +163,7 @@ void check_message(const std::string &name, const std::string &pair_lines, const
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_friction) {
   friction_law_types().add(slowing_type());
   test_statics("on a tool", false);
   test_statics("on a body", true);
@@ -173,5 +174,6 @@ int main(int argc, char *argv[]) {
                 "'Coulomb' friction does not use it");
   check_message("a parameter of the law that is missing",
                 "    set Friction law = slowing\n    set Friction coefficient = 0.1\n", "a number > 0");
-  return testing::exit_code();
 }
+
+} // namespace added_friction_test

@@ -8,6 +8,8 @@
 
 #include "billet/material/hardening.h"
 
+namespace added_hardening_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -98,8 +100,7 @@ void test_restart(const std::string &name, const std::string &parameters) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_hardening) {
   hardening_types().add(hyperbolic_type());
   test_tension();
   const std::map<std::string, std::string> constants = {
@@ -113,5 +114,6 @@ int main(int argc, char *argv[]) {
     check("constants of " + type.name, constants.count(type.name) == 1);
     test_restart(type.name, "set Hardening = " + type.name + "\n" + constants.at(type.name));
   }
-  return testing::exit_code();
 }
+
+} // namespace added_hardening_test

@@ -13,6 +13,8 @@
 
 #include <fstream>
 
+namespace added_load_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -194,8 +196,7 @@ void check_tension(const std::string &name, const Run &run, const SolutionState 
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_load) {
   load_types().add(added_traction_type());
   load_types().add(viscous_faces_type());
 
@@ -226,5 +227,6 @@ int main(int argc, char *argv[]) {
     check("implicit: momentum", std::abs(run.problem.state().momentum[0] / impulse - 1.), 1e-2);
   }
   check_viscous_faces();
-  return testing::exit_code();
 }
+
+} // namespace added_load_test

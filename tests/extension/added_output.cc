@@ -9,6 +9,8 @@
 #include "billet/output/field_quantity.h"
 #include "billet/output/history_file.h"
 
+namespace added_output_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::max_difference;
@@ -49,8 +51,7 @@ HistoryQuantity total_energy() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_output) {
   field_quantities().add(stress_state());
   field_quantities().add(doubled_displacement());
   bool is_refused = false;
@@ -94,5 +95,6 @@ int main(int argc, char *argv[]) {
   check("column", columns.substr(columns.rfind(',') + 1) == "total_energy");
   const double energy = run.problem.state().energies.total();
   check("its value", std::abs(std::stod(values.substr(values.rfind(',') + 1)) / energy - 1.), 1e-12);
-  return testing::exit_code();
 }
+
+} // namespace added_output_test

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+namespace added_probe_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -41,8 +43,7 @@ ProbeType circle_type() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_probe) {
   probe_types().add(circle_type());
   bool is_refused = false;
   try {
@@ -80,5 +81,6 @@ int main(int argc, char *argv[]) {
   check("fourth point, across", std::abs(value("ring.4.displacement_y") - 0.9 * lateral), 1e-7);
   check("mean along the axis", std::abs(value("ring.mean_displacement_z") - 0.4 * (stretch - 1.)), 1e-7);
   check("largest across", std::abs(value("ring.largest_displacement_x") - 0.1 * lateral), 1e-7);
-  return testing::exit_code();
 }
+
+} // namespace added_probe_test

@@ -7,6 +7,8 @@
 
 #include "billet/material/rate_factor.h"
 
+namespace added_rate_factor_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -106,10 +108,10 @@ void test(const std::string &name, const Case &chosen) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_rate_factor) {
   rate_factor_types().add(logarithmic_type());
   test("logarithmic", logarithmic);
   test("Cowper and Symonds", cowper_symonds);
-  return testing::exit_code();
 }
+
+} // namespace added_rate_factor_test

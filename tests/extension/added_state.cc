@@ -13,6 +13,8 @@
 #include "billet/material/law_adapter.h"
 #include "billet/output/field_quantity.h"
 
+namespace added_state_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::has;
@@ -271,13 +273,13 @@ void test_plastic_metric() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_state) {
   elasticity_types().add(isotropic_elasticity_type("remembering", "Hencky's, with a memory", &make_law));
   test_fields();
   test_names();
   test_restart<testing::ImplicitSolutionRun>("static", false);
   test_restart<testing::ExplicitStops>("explicit", true);
   test_plastic_metric();
-  return testing::exit_code();
 }
+
+} // namespace added_state_test

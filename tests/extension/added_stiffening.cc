@@ -12,6 +12,8 @@
 
 #include <cmath>
 
+namespace added_stiffening_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -96,8 +98,7 @@ bool is_told_unstable(const std::string &elasticity, const double stretch) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_stiffening) {
   elasticity_types().add(isotropic_elasticity_type("stiffening", "Fung's law", &make_law<Stiffening>));
   elasticity_types().add(isotropic_elasticity_type("softening", "Fung's law", &make_law<Softening>));
 
@@ -118,5 +119,6 @@ int main(int argc, char *argv[]) {
           is_unstable == (stretch > 1.2) && is_told_unstable("softening", stretch) == is_unstable);
   }
   check("stiffening never", !is_told_unstable("stiffening", 1.25));
-  return testing::exit_code();
 }
+
+} // namespace added_stiffening_test

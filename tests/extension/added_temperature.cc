@@ -11,6 +11,8 @@
 #include "billet/material/elasticity.h"
 #include "billet/material/law_adapter.h"
 
+namespace added_temperature_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::has;
@@ -178,8 +180,7 @@ template <class Run> void test_restart(const std::string &name, const bool is_ex
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_temperature) {
   elasticity_types().add(
       isotropic_elasticity_type("expanding", "Hencky's, with thermal expansion", &make_law));
   for (const std::string element : testing::all_element_names) {
@@ -191,5 +192,6 @@ int main(int argc, char *argv[]) {
   test_refusals();
   test_restart<testing::ImplicitSolutionRun>("static", false);
   test_restart<testing::ExplicitStops>("explicit", true);
-  return testing::exit_code();
 }
+
+} // namespace added_temperature_test

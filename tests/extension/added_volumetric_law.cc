@@ -7,6 +7,8 @@
 
 #include "billet/material/volumetric_law.h"
 
+namespace added_volumetric_law_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -54,8 +56,7 @@ std::string refusal_of(const std::string &material) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(added_volumetric_law) {
   volumetric_law_types().add(mixed_type());
   const double exact = exact_energy(1.8);
   for (const std::string element : testing::all_element_names) {
@@ -75,5 +76,6 @@ int main(int argc, char *argv[]) {
         testing::has(refusal_of(material("Simo-Miehe") + "\nset Volumetric exponent = 3"),
                      "'Volumetric law = Simo-Miehe' does not use it"));
   check("an unknown law is refused", testing::has(refusal_of(material("cubic")), "Simo-Miehe"));
-  return testing::exit_code();
 }
+
+} // namespace added_volumetric_law_test

@@ -8,7 +8,10 @@
 
 #include <set>
 
-namespace billet::testing {
+namespace cad_text_test {
+
+using namespace billet;
+using namespace billet::testing;
 
 namespace {
 
@@ -97,6 +100,6 @@ Outcome judge(const std::string &bytes) {
   return (is_step ? is_sound_step(bytes) : is_sound_iges(bytes)) ? Outcome::accepted : Outcome::unsound;
 }
 
-} // namespace billet::testing
+BILLET_FUZZ_TARGET(cad_text)
 
-BILLET_FUZZ_TARGET
+} // namespace cad_text_test

@@ -12,7 +12,10 @@
 
 #include <iomanip>
 
-namespace billet::testing {
+namespace checkpoint_test {
+
+using namespace billet;
+using namespace billet::testing;
 
 namespace {
 
@@ -73,6 +76,6 @@ Outcome judge(const std::string &bytes) {
   }
 }
 
-} // namespace billet::testing
+BILLET_FUZZ_TARGET(checkpoint)
 
-BILLET_FUZZ_TARGET
+} // namespace checkpoint_test

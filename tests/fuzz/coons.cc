@@ -4,7 +4,10 @@
 
 #include "billet/geometry/coons_patch.h"
 
-namespace billet::testing {
+namespace coons_test {
+
+using namespace billet;
+using namespace billet::testing;
 
 std::map<std::string, std::string> corpus() {
   return {{"flat.txt", "# two squares side by side\n"
@@ -42,6 +45,6 @@ Outcome judge(const std::string &bytes) {
   }
 }
 
-} // namespace billet::testing
+BILLET_FUZZ_TARGET(coons)
 
-BILLET_FUZZ_TARGET
+} // namespace coons_test

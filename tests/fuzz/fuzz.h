@@ -17,10 +17,11 @@
 #include <map>
 #include <sstream>
 
-/// A fuzz target defines corpus() and judge(), and ends with BILLET_FUZZ_TARGET. It is
+/// A fuzz target defines corpus(), sound files by their names, and judge(), which reads a file, and ends with
+/// BILLET_FUZZ_TARGET(NAME). It is
 /// - a test, which damages each file of the corpus some hundred times, the same on every machine;
-/// - with arguments N [SEED], a program that does so N times and prints how many are refused and the maximum
-/// time; doc/results/damaged-files.md has these of all targets;
+/// - with arguments N [SEED] behind its name, one that does so N times and prints how many are refused and
+/// the maximum time; doc/results/damaged-files.md has these of all targets;
 /// - with the argument --corpus FOLDER, one that writes the corpus, for other fuzzers;
 /// - with BILLET_FUZZ (the option BILLET_FUZZERS of CMake), a program of clang's libFuzzer, or of afl++.
 namespace billet::testing {
@@ -30,11 +31,6 @@ enum class Outcome {
   accepted, ///< and what was read fits the redundancy of the format
   unsound   ///< accepted, although counts, indices, sizes or checksums do not fit; or a message that is none
 };
-
-/// Returns sound files by their names.
-std::map<std::string, std::string> corpus();
-/// Reads a file.
-Outcome judge(const std::string &bytes);
 
 /// Whether a message can be printed: no byte of it is a command of a terminal.
 inline bool is_message(const std::string &text) {
@@ -108,33 +104,35 @@ void fuzz(const std::string &name, const std::string &sound, const unsigned int 
   check(name + " within " + std::to_string(std::lround(max_seconds)) + " s", longest <= max_seconds);
 }
 
-inline int fuzz_main(const int argc, char **argv) {
-  if (argc > 2 && std::string(argv[1]) == "--corpus") {
-    std::filesystem::create_directories(argv[2]);
-    for (const auto &[name, bytes] : corpus())
-      write_bytes(std::string(argv[2]) + "/" + name, bytes);
-    return 0;
+/// The test of a target.
+template <class Judge>
+void fuzz_files(const std::map<std::string, std::string> &corpus, const Judge &judge_file) {
+  const std::vector<std::string> &given = arguments();
+  if (given.size() == 2 && given[0] == "--corpus") {
+    std::filesystem::create_directories(given[1]);
+    for (const auto &[name, bytes] : corpus)
+      write_bytes(given[1] + "/" + name, bytes);
+    return;
   }
-  const unsigned int n = argc > 1 ? static_cast<unsigned int>(std::stoul(argv[1])) : 400;
-  Damage damage(argc > 2 ? static_cast<unsigned int>(std::stoul(argv[2])) : 1);
-  for (const auto &[name, bytes] : corpus())
-    fuzz(name, bytes, n, damage, argc > 1, judge);
-  return exit_code();
+  const unsigned int n = given.empty() ? 400 : static_cast<unsigned int>(std::stoul(given[0]));
+  Damage damage(given.size() < 2 ? 1 : static_cast<unsigned int>(std::stoul(given[1])));
+  for (const auto &[name, bytes] : corpus)
+    fuzz(name, bytes, n, damage, !given.empty(), judge_file);
 }
 
 } // namespace billet::testing
 
 #ifdef BILLET_FUZZ
-#define BILLET_FUZZ_TARGET                                                                                   \
+#define BILLET_FUZZ_TARGET(name)                                                                             \
   extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *const data, const std::size_t size) {            \
     const std::string bytes(reinterpret_cast<const char *>(data), size);                                     \
-    if (billet::testing::judge(bytes) == billet::testing::Outcome::unsound)                                  \
+    if (judge(bytes) == billet::testing::Outcome::unsound)                                                   \
       __builtin_trap();                                                                                      \
     return 0;                                                                                                \
   }
 #else
-#define BILLET_FUZZ_TARGET                                                                                   \
-  int main(int argc, char **argv) { return billet::testing::fuzz_main(argc, argv); }
+#define BILLET_FUZZ_TARGET(name)                                                                             \
+  BILLET_TEST(name) { billet::testing::fuzz_files(corpus(), judge); }
 #endif
 
 #endif

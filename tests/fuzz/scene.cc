@@ -5,7 +5,10 @@
 #include "billet/errors.h"
 #include "billet/parameters/scene.h"
 
-namespace billet::testing {
+namespace scene_test {
+
+using namespace billet;
+using namespace billet::testing;
 
 namespace {
 
@@ -51,6 +54,6 @@ Outcome judge(const std::string &bytes) {
   }
 }
 
-} // namespace billet::testing
+BILLET_FUZZ_TARGET(scene)
 
-BILLET_FUZZ_TARGET
+} // namespace scene_test

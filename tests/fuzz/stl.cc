@@ -7,7 +7,10 @@
 #include <array>
 #include <cstring>
 
-namespace billet::testing {
+namespace stl_test {
+
+using namespace billet;
+using namespace billet::testing;
 
 namespace {
 
@@ -95,6 +98,6 @@ Outcome judge(const std::string &bytes) {
   }
 }
 
-} // namespace billet::testing
+BILLET_FUZZ_TARGET(stl)
 
-BILLET_FUZZ_TARGET
+} // namespace stl_test

@@ -4,7 +4,10 @@
 
 #include "billet/material/csv_columns.h"
 
-namespace billet::testing {
+namespace table_test {
+
+using namespace billet;
+using namespace billet::testing;
 
 std::map<std::string, std::string> corpus() {
   return {{"commas.csv", "# strain, stress\nstrain,stress,rate\n0.,200.,1\n0.1,250.5,1\n0.2,300.25e0,1\n"},
@@ -31,6 +34,6 @@ Outcome judge(const std::string &bytes) {
   }
 }
 
-} // namespace billet::testing
+BILLET_FUZZ_TARGET(table)
 
-BILLET_FUZZ_TARGET
+} // namespace table_test

@@ -5,6 +5,8 @@
 
 #include "../testing.h"
 
+namespace border_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::make_surface;
@@ -68,7 +70,7 @@ void check_near_edge() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(border) {
   const Tensor<1, 3> up({0., 0., 1.});
   const auto rectangle = make_surface("rectangle", "set Length = 2\nset Width = 1");
   check_edge("side of a rectangle", *rectangle, [&](const double u, const double d, const double g, auto &x) {
@@ -97,5 +99,6 @@ int main() {
                return Expected{g, d, 0., 1. / (radius + g), n, up};
              });
   check_near_edge();
-  return billet::testing::exit_code();
 }
+
+} // namespace border_test

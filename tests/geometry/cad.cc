@@ -30,20 +30,22 @@
 #include <TopoDS_Shape.hxx>
 #include <gp_Ax2.hxx>
 
+namespace cad_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
 
 namespace {
 
-Surface through_step(const TopoDS_Shape &shape, const std::string &lines = "") {
+SharedSurface through_step(const TopoDS_Shape &shape, const std::string &lines = "") {
   STEPControl_Writer writer;
   writer.Transfer(shape, STEPControl_AsIs);
   writer.Write("shape.step");
   return make_surface("CAD", "set File = shape.step\n" + lines);
 }
 
-Surface through_iges(const TopoDS_Shape &shape) {
+SharedSurface through_iges(const TopoDS_Shape &shape) {
   IGESControl_Controller::Init();
   IGESControl_Writer writer("MM", 0); // faces, no solids
   writer.AddShape(shape);
@@ -53,8 +55,8 @@ Surface through_iges(const TopoDS_Shape &shape) {
 }
 
 /// Two descriptions of one surface, outside of curvature centres and edges within: gap, normal and turning.
-void check_same(const std::string &name, const Surface &surface, const Surface &truth, const double reach,
-                const double tolerance) {
+void check_same(const std::string &name, const SharedSurface &surface, const SharedSurface &truth,
+                const double reach, const double tolerance) {
   Random random;
   WorstError gap, normal, turning;
   unsigned int n = 0;
@@ -126,7 +128,7 @@ TopoDS_Shape rounded_box(const double radius) {
   return fillet.Shape();
 }
 
-void check_rounded_box(const std::string &name, const Surface &box, const double tolerance) {
+void check_rounded_box(const std::string &name, const SharedSurface &box, const double tolerance) {
   check_surface(name, *box, Tensor<1, 3>({2., 2.5, 3.}), 5.);
   const Tensor<1, 3> half({2., 2.5, 3.});
   Random random;
@@ -189,7 +191,7 @@ void check_wave() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(cad) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
   const Tensor<1, 3> origin;
   const gp_Ax2 axes(gp_Pnt(1., -2., 0.5), gp_Dir(1., 2., 2.));
@@ -256,5 +258,6 @@ int main() {
       *through_step(BRepAlgoAPI_Common(BRepBuilderAPI_MakeFace(wave(), 1e-6).Shape(), post).Shape()), origin,
       3.);
   check_wave();
-  return exit_code();
 }
+
+} // namespace cad_test

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+namespace coons_test {
+
 using namespace billet;
 using namespace billet::testing;
 using Point = dealii::Tensor<1, 3>;
@@ -300,7 +302,7 @@ void check_crossings() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(coons) {
   check_curves();
   check_closed_forms();
   const std::vector<Example> examples = {
@@ -321,5 +323,6 @@ int main() {
   }
   check_degenerate();
   check_crossings();
-  return exit_code();
 }
+
+} // namespace coons_test

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <sstream>
 
+namespace coons_torus_test {
+
 using namespace billet;
 using namespace billet::testing;
 using Point = dealii::Tensor<1, 3>;
@@ -34,7 +36,7 @@ std::string arc(const double around_0, const double along_0, const double around
 }
 
 /// The fillet in n × n patches.
-Surface make_fillet(const unsigned int n) {
+SharedSurface make_fillet(const unsigned int n) {
   const std::string name = "fillet_" + std::to_string(n * n) + ".txt";
   std::ofstream file(name);
   file << "# four arcs a line\n\n";
@@ -91,7 +93,7 @@ Errors errors_against(const RigidSurface &torus, const RigidSurface &fillet) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(coons_torus) {
   const auto torus =
       make_surface("torus", "set Ring radius = 7\nset Tube radius = 2\nset From angle = 90\nset To "
                             "angle = 180\nset Sector = 90");
@@ -115,5 +117,6 @@ int main() {
     }
     before = errors;
   }
-  return exit_code();
 }
+
+} // namespace coons_torus_test

@@ -24,6 +24,8 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Shape.hxx>
 
+namespace damaged_cad_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -287,9 +289,10 @@ void check_extents(const std::string &original) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
+BILLET_TEST(damaged_cad) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
-  const unsigned int n_files = argc > 1 ? static_cast<unsigned int>(std::stoul(argv[1])) : 60;
+  const auto &given = billet::testing::arguments();
+  const unsigned int n_files = given.empty() ? 60 : static_cast<unsigned int>(std::stoul(given[0]));
   check_texts();
   STEPControl_Writer step;
   step.Transfer(plate(false), STEPControl_AsIs);
@@ -314,10 +317,11 @@ int main(int argc, char *argv[]) {
       n_read += report.fault.empty() && bytes != sound ? 1 : 0; // the library reads it
       return judge_cad(suffix, bytes);
     };
-    fuzz(name, sound, n_files, damage, argc > 1, judge_one);
-    fuzz("shape_of_" + name, sound, n_files, of_shapes, argc > 1, judge_one);
-    if (argc > 1)
+    fuzz(name, sound, n_files, damage, !given.empty(), judge_one);
+    fuzz("shape_of_" + name, sound, n_files, of_shapes, !given.empty(), judge_one);
+    if (!given.empty())
       std::cout << name << ": " << n_read << " read by OpenCASCADE" << std::endl;
   }
-  return exit_code();
 }
+
+} // namespace damaged_cad_test

@@ -6,6 +6,8 @@
 
 #include "facet_samples.h"
 
+namespace facet_bulge_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -101,10 +103,11 @@ double gap_error(const bool is_corrected) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(facet_bulge) {
   check_heights();
   check_normals();
   check("chords miss the gap by more than the slave's rise", gap_error(false) > 1.);
   check("curved facets have it", gap_error(true), 0.2);
-  return exit_code();
 }
+
+} // namespace facet_bulge_test

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+namespace facets_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::Random;
@@ -330,7 +332,7 @@ void check_segments() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(facets) {
   check_flat_square<PlanedFacet>("planed");
   check_flat_square<BilinearFacet>("bilinear");
   check_any_facet<PlanedFacet>("planed");
@@ -342,5 +344,6 @@ int main() {
   check_planed();
   check_bilinear();
   check_segments();
-  return billet::testing::exit_code();
 }
+
+} // namespace facets_test

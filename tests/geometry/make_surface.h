@@ -10,14 +10,14 @@
 
 namespace billet::testing {
 
-using Surface = std::shared_ptr<const RigidSurface>;
+using SharedSurface = std::shared_ptr<const RigidSurface>;
 
 /// The surface that a user gets who writes these lines into a scene file: name, shape and further lines of
 /// each part.
 struct SurfacePart {
   std::string shape, lines;
 };
-inline Surface make_surface(const std::vector<SurfacePart> &parts, const std::string &folder = "") {
+inline SharedSurface make_surface(const std::vector<SurfacePart> &parts, const std::string &folder = "") {
   std::ostringstream text;
   std::vector<std::pair<std::string, std::string>> shapes;
   text << "subsection Surfaces\n";
@@ -37,8 +37,8 @@ inline Surface make_surface(const std::vector<SurfacePart> &parts, const std::st
   tool.parse(reader);
   return tool.surface;
 }
-inline Surface make_surface(const std::string &shape, const std::string &lines,
-                            const std::string &folder = "") {
+inline SharedSurface make_surface(const std::string &shape, const std::string &lines,
+                                  const std::string &folder = "") {
   return make_surface({SurfacePart{shape, lines}}, folder);
 }
 

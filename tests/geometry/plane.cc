@@ -6,12 +6,14 @@
 
 #include "../testing.h"
 
+namespace plane_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::WorstError;
 using dealii::Tensor;
 
-int main() {
+BILLET_TEST(plane) {
   billet::testing::Random random;
   WorstError gap_error, normal_error, picture_error, round_trip_error, rigid_error;
   for (unsigned int i = 0; i < 1000; ++i) {
@@ -44,5 +46,6 @@ int main() {
   check("the picture lies in the plane", picture_error.value(), 1e-13);
   check("to the tool and back", round_trip_error.value(), 1e-13);
   check("a placement is rigid, and turns about the centre", rigid_error.value(), 1e-13);
-  return billet::testing::exit_code();
 }
+
+} // namespace plane_test

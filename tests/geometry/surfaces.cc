@@ -3,6 +3,8 @@
 // trimmed, from outside and inside; points where many are nearest; curvatures against their closed forms.
 #include "check_surface.h"
 
+namespace surfaces_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -39,7 +41,7 @@ void check_turning(const std::string &name, const RigidSurface &surface, const T
 
 } // namespace
 
-int main() {
+BILLET_TEST(surfaces) {
   const Tensor<1, 3> origin;
   const Tensor<1, 3> c({1., -2., 0.5});
   const std::string at = "set Centre = 1, -2, 0.5\n", about = "set Axis = 1, 2, 2\n",
@@ -198,5 +200,6 @@ int main() {
   check_gap("inside the ridge", *ridge, Tensor<1, 3>({0.3, 0., -0.2}), -0.2);
   check("beyond the border: no surface", !alone->project(Tensor<1, 3>({-0.3, 0., -0.4})).exists);
   check("... but a distance", std::abs(alone->project(Tensor<1, 3>({-0.3, 0., -0.4})).gap - 0.5), 1e-14);
-  return exit_code();
 }
+
+} // namespace surfaces_test

@@ -5,6 +5,8 @@
 
 #include "../testing.h"
 
+namespace swept_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::WorstError;
@@ -71,7 +73,7 @@ template <class Gap> void test(const std::string &name, const std::string &lines
 
 } // namespace
 
-int main() {
+BILLET_TEST(swept) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   // Above the bottom, inside, no point is of interest: another wall or the bottom may be nearer.
   test("punch", "set Corners = 0, 0 : 1 ; 0, 5\nset Outside = right\nset Inside = flat", [=](const auto &x) {
@@ -111,5 +113,6 @@ int main() {
   const auto ring = testing::make_surface(
       "torus", "set Centre = 0, 0, 0\nset Axis = 0, 0, 1\nset Ring radius = 3\nset Tube radius = 1");
   check("facets of a torus", ring->surface_mesh({Tensor<1, 3>(), 4.}).facets.size() <= 10000);
-  return billet::testing::exit_code();
 }
+
+} // namespace swept_test

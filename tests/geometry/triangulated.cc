@@ -6,13 +6,15 @@
 
 #include "billet/geometry/curved_triangles.h"
 
+namespace triangulated_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
 
 namespace {
 
-Surface read(const TriangleMesh &mesh, const std::string &lines = "") {
+SharedSurface read(const TriangleMesh &mesh, const std::string &lines = "") {
   write_ascii(mesh, "surface.stl");
   return make_surface("STL", "set File = surface.stl\n" + lines);
 }
@@ -77,7 +79,7 @@ struct Errors {
   double gap, normal;
 };
 template <class Approximation>
-Errors errors_near(const Surface &exact, const Approximation &surface, const double size,
+Errors errors_near(const SharedSurface &exact, const Approximation &surface, const double size,
                    const double min_z) {
   Random random;
   WorstError gap, normal;
@@ -99,7 +101,7 @@ Errors errors_near(const Surface &exact, const Approximation &surface, const dou
 /// The errors fall at least at these orders from mesh to mesh, each with sides half as long, and are smaller
 /// than those of the flat facets by the last factor.
 template <class Mesh>
-void check_order(const std::string &name, const Surface &exact, const Mesh &mesh, const double size,
+void check_order(const std::string &name, const SharedSurface &exact, const Mesh &mesh, const double size,
                  const std::string &lines, const double gap_order, const double normal_order,
                  const double min_gain, const double min_z = -1e9) {
   std::array<Errors, 3> errors{};
@@ -272,7 +274,7 @@ void check_sliver() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(triangulated) {
   check_closest_point("slightly bent triangles", 0.1, 2.);
   check_closest_point("strongly bent triangles", 0.3, 3.);
   check_closest_point("bent triangles from afar", 0.2, 100.);
@@ -321,5 +323,6 @@ int main() {
         return revolve(polygon, 32 * n);
       },
       8., "set Closed = false\n", 2., 1., 100., -3.9);
-  return exit_code();
 }
+
+} // namespace triangulated_test

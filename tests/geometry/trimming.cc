@@ -4,6 +4,8 @@
 
 #include "../testing.h"
 
+namespace trimming_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::Random;
@@ -66,7 +68,7 @@ void check_region(const std::string &name, const TrimmingLoops &loops, const Lev
 
 } // namespace
 
-int main() {
+BILLET_TEST(trimming) {
   TrimmingLoops circle(1e-9);
   circle.add(arc({0.1, 0.2}, 1., 0.3, 2. * M_PI), even(12));
   const auto disc = [](const Point &p) { return std::hypot(p[0] - 0.1, p[1] - 0.2) - 1.; };
@@ -108,5 +110,6 @@ int main() {
   check_region(
       "flower", flower,
       [&](const Point &p) { return std::hypot(p[0], p[1]) - radius(std::atan2(p[1], p[0])); }, 1.5);
-  return billet::testing::exit_code();
 }
+
+} // namespace trimming_test

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <sstream>
 
+namespace registered_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -73,8 +75,7 @@ void test_run() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(registered) {
   time_integrator_types().add(bossak_type());
   const TimeIntegrator integrator =
       read_with("  set Method = Bossak\n  set Inertia weight = -0.2\n").implicit_dynamics.integrator;
@@ -94,5 +95,6 @@ int main(int argc, char *argv[]) {
   }
   check("a name that is taken", is_refused);
   test_run();
-  return billet::testing::exit_code();
 }
+
+} // namespace registered_test

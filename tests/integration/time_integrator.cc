@@ -8,6 +8,8 @@
 #include <array>
 #include <vector>
 
+namespace time_integrator_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::WorstError;
@@ -89,7 +91,7 @@ double final_error(const TimeIntegrator &integrator, const unsigned int n) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(time_integrator) {
   const TimeIntegrator trapezoidal = newmark(0.25, 0.5);
   std::vector<std::pair<std::string, TimeIntegrator>> methods = {{"Newmark", trapezoidal}};
   for (const double alpha : {-1. / 3., -0.1, -0.05, 0.})
@@ -212,5 +214,6 @@ int main() {
     check("error of a step with beta = " + std::to_string(beta),
           std::abs(integrator.error_factor() * dt * dt * (next.a - s.a) / error - 1.), 0.01);
   }
-  return testing::exit_code();
 }
+
+} // namespace time_integrator_test

@@ -5,6 +5,8 @@
 
 #include "../testing.h"
 
+namespace axes_test {
+
 using namespace billet;
 using billet::testing::check;
 using dealii::Tensor;
@@ -27,7 +29,7 @@ Tensor<1, 3> force(const std::string &axes, const dealii::Point<3> &centre) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(axes) {
   const dealii::Point<3> centre(1., 4., 7.);
   check("global", (force("", centre) - Tensor<1, 3>({2., 4., 6.})).norm(), 1e-14);
   // About the line through (1, 1, 1) along z the radius at (1, 4, 7) is y, and the circumference −x.
@@ -50,5 +52,6 @@ int main() {
   const auto &point = std::get<std::shared_ptr<const PointLoad>>(load.action);
   check("force on a point", (point->force(values.data()) - Tensor<1, 3>({-2., 1., 3.})).norm(), 1e-14);
   check("where it acts", point->position() == dealii::Point<3>(1., 4., 7.) && !point->takes_nearest_node());
-  return testing::exit_code();
 }
+
+} // namespace axes_test

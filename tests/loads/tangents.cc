@@ -8,6 +8,8 @@
 #include "billet/geometry/facet_point.h"
 #include "billet/scene/scene.h"
 
+namespace tangents_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -330,7 +332,7 @@ void check_times() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(tangents) {
   check_load("pressure", "pressure", "set Pressure = 3");
   for (const std::string direction : {"all", "normal", "1, 2, 3"}) {
     const std::string where = "set Direction = " + direction;
@@ -353,5 +355,6 @@ int main() {
         testing::make_load("acceleration", "set Acceleration = 1 ; 2 ; t").load.acts_on_mass());
   check("gravity acts on the mass",
         !testing::make_load("acceleration", "set Acceleration = 1 ; 2 ; t").load.acts_on_faces());
-  return testing::exit_code();
 }
+
+} // namespace tangents_test

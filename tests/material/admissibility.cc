@@ -7,6 +7,8 @@
 #include "../sample_laws.h"
 #include "../testing.h"
 
+namespace admissibility_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::SymmetricTensor;
@@ -58,7 +60,7 @@ template <class Law> void test_law(const std::string &name, const Law &law) {
     }
 }
 
-int main() {
+BILLET_TEST(admissibility) {
   const WithoutTraps quiet; // laws are asked what they make of what is no number
   check("b = 1 is accepted", accepted(diagonal(1., 1., 1.)));
   check("b of stretches 1e-3 and 1e3 is accepted", accepted(diagonal(1e-6, 1., 1e6)));
@@ -73,5 +75,6 @@ int main() {
   for_each_hardening([](const std::string &name, const auto &hardening) {
     test_law(name, HenckyPlasticity(steel, make_hardening(hardening)));
   });
-  return exit_code();
 }
+
+} // namespace admissibility_test

@@ -9,6 +9,8 @@
 #include "billet/material/flow_rule_plastic.h"
 #include "billet/material/law_point.h"
 
+namespace anisotropy_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -227,7 +229,7 @@ void test_cylindrical_axes() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(anisotropy) {
   for (const Sheet &sheet : sheets)
     test_sheet(sheet);
   test_stress_ratios();
@@ -242,5 +244,6 @@ int main() {
   test_moduli("with backstress", make_law(perfect, mild, axes, {{60000., 600.}, {1500., 0.}}), step, 30, 40);
   test_objectivity();
   test_cylindrical_axes();
-  return exit_code();
 }
+
+} // namespace anisotropy_test

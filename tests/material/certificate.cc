@@ -13,6 +13,8 @@
 #include <limits>
 #include <set>
 
+namespace certificate_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -245,10 +247,11 @@ void test_ranges() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(certificate) {
   test_built_in_laws();
   test_planted_errors();
   test_units();
   test_ranges();
-  return billet::testing::exit_code();
 }
+
+} // namespace certificate_test

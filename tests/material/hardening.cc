@@ -6,6 +6,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+namespace hardening_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -66,7 +68,7 @@ void test_consistency(const std::string &name, const Hardening &hardening,
   check(name + ", consistency, 0 <= root <= q/3G", inside);
 }
 
-int main() {
+BILLET_TEST(hardening) {
   const auto unit_scale = [](const double) { return 1.; };
   test_derivative_and_integral("perfect plasticity", perfect, unit_scale);
   test_derivative_and_integral("linear hardening", linear, unit_scale);
@@ -123,6 +125,6 @@ int main() {
       "stiffening and softening kinks",
       TabulatedHardening({0., 0.001, 0.002, 0.1, 0.11, 3.}, {100., 100., 900., 950., 700., 5000.}));
   test_consistency("in other units", LinearHardening{7e-4, 3e-4}, 0.23);
-
-  return exit_code();
 }
+
+} // namespace hardening_test

@@ -10,6 +10,8 @@
 
 #include <complex>
 
+namespace hypoelastic_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::SymmetricTensor;
@@ -174,7 +176,7 @@ template <class Law> void test_moduli(const std::string &name, const Law &law, c
   check(name + ", and above a quarter of it", stiffness.value() > 0.25);
 }
 
-int main() {
+BILLET_TEST(hypoelastic) {
   test_simple_shear();
   test_stretch();
   const HypoelasticElasticity elastic(steel);
@@ -185,5 +187,6 @@ int main() {
     test_rotations(name, law);
     test_moduli(name, law, 0.1);
   });
-  return exit_code();
 }
+
+} // namespace hypoelastic_test

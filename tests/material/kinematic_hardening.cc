@@ -8,6 +8,8 @@
 
 #include "billet/material/flow_rule_plastic.h"
 
+namespace kinematic_hardening_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -293,7 +295,7 @@ void test_objectivity() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(kinematic_hardening) {
   test_plain("linear", linear);
   test_plain("Voce", voce);
   test_plain("table", table);
@@ -315,5 +317,6 @@ int main() {
               60);
   test_energy();
   test_objectivity();
-  return exit_code();
 }
+
+} // namespace kinematic_hardening_test

@@ -12,6 +12,8 @@
 #include "billet/material/rate_factor.h"
 #include "billet/material/thermal_factor.h"
 
+namespace memory_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -174,7 +176,7 @@ void test_heat() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(memory) {
   const SharedFlow linear = make_hardening(LinearHardening{300., 1000.});
   test_continuation("rate", *make_hencky_law(steel, flow_at_rates()));
   test_continuation("rate, hypoelastic", *make_hypoelastic_law(steel, flow_at_rates()));
@@ -188,5 +190,6 @@ int main() {
                                     {{0.3, 0.25, 0.1}, {0.02, 1., 30.}}));
   test_other_deformation();
   test_heat();
-  return exit_code();
 }
+
+} // namespace memory_test

@@ -7,6 +7,8 @@
 
 #include "billet/material/neo_hookean.h"
 
+namespace neo_hookean_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -99,7 +101,7 @@ void test_law(const std::string &name, const Law &law, const std::vector<double>
     check(name + ", symmetry", max_asymmetry, 1e-14);
 }
 
-int main() {
+BILLET_TEST(neo_hookean) {
   test_simple_shear();
   test_law("elastic", NeoHookeanElasticity(steel), {1e-3, 0.3, 1.});
   for_each_hardening([](const std::string &name, const auto &hardening) {
@@ -107,5 +109,6 @@ int main() {
     const double yield_strain = hardening.stress(0.) / (3. * steel.shear);
     test_law(name, Law(steel, make_hardening(hardening)), {0.5 * yield_strain, 5. * yield_strain, 0.5});
   });
-  return exit_code();
 }
+
+} // namespace neo_hookean_test

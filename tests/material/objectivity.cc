@@ -4,6 +4,8 @@
 
 #include "moduli.h"
 
+namespace objectivity_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -54,7 +56,7 @@ void test_moduli(const std::string &name, const Law &law, const typename Law::Hi
   check(name + ", moduli turn", error.value(), 1e-12);
 }
 
-int main() {
+BILLET_TEST(objectivity) {
   Random random;
   const HenckyElasticity elastic(steel);
   const Tensor<2, 3> moderate = unit + random.tensor(0.05), large = unit + random.tensor(0.4);
@@ -68,5 +70,6 @@ int main() {
     test_moduli(name + ", elastic", law, work(law), 1e-4);
     test_moduli(name + ", plastic", law, work(law), 0.3);
   });
-  return exit_code();
 }
+
+} // namespace objectivity_test

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <fstream>
 
+namespace rate_curves_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -138,10 +140,11 @@ void check_tables() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(rate_curves) {
   check_factor();
   check_flow();
   check_refusals();
   check_tables();
-  return exit_code();
 }
+
+} // namespace rate_curves_test

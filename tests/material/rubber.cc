@@ -6,6 +6,8 @@
 
 #include <map>
 
+namespace rubber_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -337,7 +339,7 @@ void test_refusals() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(rubber) {
   test_closed_forms();
   test_arruda_boyce();
   test_volume();
@@ -345,5 +347,6 @@ int main() {
   test_work();
   test_stability();
   test_refusals();
-  return exit_code();
 }
+
+} // namespace rubber_test

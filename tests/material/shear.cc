@@ -7,6 +7,8 @@
 
 #include "billet/material/elastic.h"
 
+namespace shear_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::SymmetricTensor;
@@ -117,7 +119,7 @@ void test_steady_simple_shear() {
   check("steady simple shear, extrapolated", (8. / 3. * fine - 2. * middle + 1. / 3. * coarse).norm(), 1e-7);
 }
 
-int main() {
+BILLET_TEST(shear) {
   const auto never = [](const double) { return 1e300; };
   const HenckyElasticity elastic(steel);
   test_fixed_axes("elastic, fixed axes", elastic, never, 0.);
@@ -139,5 +141,6 @@ int main() {
     check(name + ", simple shear in one step", simple_shear_error(law, yield_stress, 0.7, 1), 1e-10);
   });
   test_steady_simple_shear();
-  return exit_code();
 }
+
+} // namespace shear_test

@@ -5,6 +5,8 @@
 
 #include "moduli.h"
 
+namespace tangent_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -66,7 +68,7 @@ void test_states(const std::string &name, const Law &law, const typename Law::Hi
   check(name, error.value(), 1e-7);
 }
 
-int main() {
+BILLET_TEST(tangent) {
   Properties elastic_properties;
   const HenckyElasticity elastic(steel);
   test_states("elastic, small strain", elastic, {}, 1e-3, false, elastic_properties);
@@ -88,5 +90,6 @@ int main() {
     }
     properties.check_all(name);
   });
-  return exit_code();
 }
+
+} // namespace tangent_test

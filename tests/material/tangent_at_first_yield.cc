@@ -5,6 +5,8 @@
 
 #include "moduli.h"
 
+namespace tangent_at_first_yield_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -28,7 +30,7 @@ double one_sided_error(const Law &law, const State<Law> &state, const double sid
   return error.value();
 }
 
-int main() {
+BILLET_TEST(tangent_at_first_yield) {
   for_each_hardening([](const std::string &name, const auto &hardening) {
     using Law = HenckyPlasticity;
     const Law law(steel, make_hardening(hardening));
@@ -51,5 +53,6 @@ int main() {
       check(label + "1e-6 below yield, into unloading", unloading.value(), 1e-7);
     }
   });
-  return exit_code();
 }
+
+} // namespace tangent_at_first_yield_test

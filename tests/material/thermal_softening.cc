@@ -13,6 +13,8 @@
 #include <fstream>
 #include <map>
 
+namespace thermal_softening_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -289,7 +291,7 @@ template <class Law> void test_moduli(const std::string &name, const Law &law, c
 
 } // namespace
 
-int main() {
+BILLET_TEST(thermal_softening) {
   test_closed_form("linear", linear);
   test_closed_form("Voce", voce);
   test_closed_form("power law", power_law);
@@ -313,5 +315,6 @@ int main() {
       Axes({Tensor<1, 3>({0.6, 0.8, 0.}), Tensor<1, 3>({-0.8, 0.6, 0.}), Tensor<1, 3>({0., 0., 1.})})});
   test_moduli("with directions at a rate",
               make_law<Directed>(at_rate(voce, cowper_symonds(40., 5.)), "1.03", heating, rule), false);
-  return exit_code();
 }
+
+} // namespace thermal_softening_test

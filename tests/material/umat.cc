@@ -16,6 +16,8 @@
 #include <cstring>
 #include <limits>
 
+namespace umat_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -450,7 +452,7 @@ void test_utilities() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(umat) {
   test_against_own_laws();
   test_rates();
   test_dissipation();
@@ -461,5 +463,6 @@ int main() {
   test_given_stress();
   test_tangent_errors();
   test_utilities();
-  return billet::testing::exit_code();
 }
+
+} // namespace umat_test

@@ -7,6 +7,8 @@
 
 #include "billet/material/elastic.h"
 
+namespace uniaxial_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -110,7 +112,7 @@ void test_path(const std::string &name, const Law &law, const YieldStress &yield
   check(name, error.value(), 1e-10);
 }
 
-int main() {
+BILLET_TEST(uniaxial) {
   const auto never = [](const double) { return 1e300; };
   const HenckyElasticity elastic(steel);
   for (const unsigned int n_steps : {1, 5, 100}) {
@@ -127,5 +129,6 @@ int main() {
                 {0.4, 0.399, -0.3, -0.299, 0.1}, n_steps);
     });
   }
-  return exit_code();
 }
+
+} // namespace uniaxial_test

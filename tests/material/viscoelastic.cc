@@ -4,6 +4,8 @@
 
 #include "rubber_laws.h"
 
+namespace viscoelastic_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -193,12 +195,13 @@ void test_given_stress() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(viscoelastic) {
   test_relaxation();
   test_ramp();
   test_creep();
   test_moduli();
   test_dissipation();
   test_given_stress();
-  return exit_code();
 }
+
+} // namespace viscoelastic_test

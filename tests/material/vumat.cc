@@ -15,6 +15,8 @@
 
 #include <limits>
 
+namespace vumat_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -229,9 +231,10 @@ void test_arguments() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(vumat) {
   test_elastic();
   test_plastic();
   test_arguments();
-  return billet::testing::exit_code();
 }
+
+} // namespace vumat_test

@@ -10,6 +10,8 @@
 
 #include <complex>
 
+namespace block_stability_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -257,8 +259,9 @@ void check_plastic_blocks() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(block_stability) {
   check_elastic_blocks();
   check_plastic_blocks();
-  return exit_code();
 }
+
+} // namespace block_stability_test

@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+namespace element_comparison_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::LawFormulation;
@@ -60,7 +62,7 @@ ElementVectors bend(const ElementVectors &x, const std::array<double, 3> &l, con
 
 } // namespace
 
-int main() {
+BILLET_TEST(element_comparison) {
   const auto relative = [](const double a, const double b) { return std::abs(a / b - 1.); };
   const std::array<double, 3> l = {{5., 3., 1.}};
   for (const double poisson : {0., 0.3, 0.49}) {
@@ -201,5 +203,6 @@ int main() {
     check("below the yield stress it is elastic",
           relative(energy(0.5 * yield / stiffness), 0.125 * yield * yield / stiffness), 1e-12);
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace element_comparison_test

@@ -8,6 +8,8 @@
 
 #include <limits>
 
+namespace element_failure_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -155,7 +157,7 @@ void test_reference() {
   check("initialized again after that", block->initialize({good}, offender) && block->size() == 1);
 }
 
-int main() {
+BILLET_TEST(element_failure) {
   const WithoutTraps quiet; // some displacements are no numbers
   test_failures("elastic", {steel, {}});
   test_failures("plastic", {steel, linear});
@@ -166,5 +168,6 @@ int main() {
   check("elastic, keeps no history", make_block({steel, {}}, cube())->history_size() == 0);
   check("plastic, keeps two beats of C_p and alpha in eight points",
         make_block({steel, linear}, cube())->history_size() == 112); // 2 · 8 · 7
-  return exit_code();
 }
+
+} // namespace element_failure_test

@@ -13,6 +13,8 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+namespace element_laws_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -274,7 +276,7 @@ void test_rubber(const std::string &name, const ElementFormulation &formulation,
   test_modes_and_patch(name, formulation, law);
 }
 
-int main() {
+BILLET_TEST(element_laws) {
   for_each_formulation([](const LawFormulation &formulation) {
     if (formulation.elasticity == hypoelastic)
       test_own_pressure(formulation, name_of(formulation));
@@ -287,5 +289,6 @@ int main() {
       formulation.element = element;
       test_rubber(std::string(element.name()) + ", " + name, formulation, law);
     }
-  return exit_code();
 }
+
+} // namespace element_laws_test

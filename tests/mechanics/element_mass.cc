@@ -5,6 +5,8 @@
 #include "../testing.h"
 #include "elements.h"
 
+namespace element_mass_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::WorstError;
@@ -28,7 +30,7 @@ double sum(const ElementMass &mass) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(element_mass) {
   testing::Random random;
   // A parallelepiped: x = A (ξ + 1)/2.
   dealii::Tensor<2, 3> A = random.tensor(0.3);
@@ -91,5 +93,6 @@ int main() {
     total.add(std::abs(sum(mass_of(distorted)) / (density * kinematics.current_volume) - 1.));
   }
   check("mass of distorted hexahedra", total.value(), 1e-13);
-  return testing::exit_code();
 }
+
+} // namespace element_mass_test

@@ -6,6 +6,8 @@
 
 #include "billet/material/plastic.h"
 
+namespace element_patch_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -153,7 +155,7 @@ void test_rotation(const std::string &name, const MaterialLaw &material, const d
   check(name + ", rotation adds no plastic strain", strain.value(), 1e-14);
 }
 
-int main() {
+BILLET_TEST(element_patch) {
   test_uniform_element("elastic", elastic_material, HenckyElasticity(steel));
   test_uniform_element("plastic", plastic_material, HenckyPlasticity(steel, make_hardening(linear)));
   for (const auto &[name, material] :
@@ -164,5 +166,6 @@ int main() {
     test_rotation(name + std::string(", 10 %"), material, 0.1);
     test_rotation(name + std::string(", 1 %"), material, 0.01);
   }
-  return exit_code();
 }
+
+} // namespace element_patch_test

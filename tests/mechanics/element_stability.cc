@@ -9,6 +9,8 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
+namespace element_stability_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -62,7 +64,7 @@ double flowing(const LawFormulation &formulation, const Tensor<2, 3> &rate) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(element_stability) {
   LawFormulation formulation;
   formulation.elasticity = neo_hookean;
   Tensor<2, 3> sheared = unit, shear_rate;
@@ -92,5 +94,6 @@ int main() {
   }
   formulation.element = ElementFormulation::Element::mean_dilatation;
   check("mean dilatation buckles, pressed to 0.4", elastic(formulation, stretch(1.2, 1.2, 0.4)) < -0.1);
-  return exit_code();
 }
+
+} // namespace element_stability_test

@@ -10,6 +10,8 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+namespace element_tangent_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -91,7 +93,7 @@ void test_undeformed(const std::string &name, const NodalTensor &X) {
   check(name + ", shear modulus alone: free dilation", multiply(K, X).norm() / to_tensor(K).norm(), 1e-14);
 }
 
-int main() {
+BILLET_TEST(element_tangent) {
   Random random;
   const NodalTensor X = distorted_cube();
   const auto deform = [&](const double uniform, const double nodal) {
@@ -124,5 +126,6 @@ int main() {
   const unsigned int n_plastic = count_plastic(X, mixed);
   check("mixed, some points yield, some do not", 2 <= n_plastic && n_plastic <= 6);
   test_matrix("mixed", *make_block({steel, linear}, X), X, mixed, 1e-7, 1e-7);
-  return exit_code();
 }
+
+} // namespace element_tangent_test

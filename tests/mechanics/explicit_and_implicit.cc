@@ -5,6 +5,8 @@
 #include "../sample_laws.h"
 #include "explicit_blocks.h"
 
+namespace explicit_and_implicit_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -172,7 +174,7 @@ void test_rates(const Formulation &formulation) {
   test_plastic_work("table, logarithm of the rate", formulation, {steel, at_rate(table, logarithm)}, 1e-11);
 }
 
-int main() {
+BILLET_TEST(explicit_and_implicit) {
   for (const auto element : all_elements())
     for (const auto &elasticity : metal_elasticities()) {
       const Formulation formulation = make_formulation(element, elasticity);
@@ -197,5 +199,6 @@ int main() {
       const Formulation formulation = make_formulation(element, name);
       test_law_path(name_of(formulation), formulation, law, 0.3, 0.15, 1e-11);
     }
-  return exit_code();
 }
+
+} // namespace explicit_and_implicit_test

@@ -8,6 +8,8 @@
 
 #include <limits>
 
+namespace explicit_float_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -396,7 +398,7 @@ void test_subnormals(const Formulation &formulation) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(explicit_float) {
   for_each_kernel([](const Formulation &formulation) {
     test_forces(formulation);
     test_small_strain(formulation);
@@ -408,5 +410,6 @@ int main() {
     test_slow_loading(formulation);
     test_subnormals(formulation);
   });
-  return exit_code();
 }
+
+} // namespace explicit_float_test

@@ -4,6 +4,8 @@
 
 #include "explicit_blocks.h"
 
+namespace explicit_forces_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -228,7 +230,7 @@ void test_hourglass_flow(const std::string &elasticity) {
         1e-2);
 }
 
-int main() {
+BILLET_TEST(explicit_forces) {
   for_each_kernel([](const Formulation &formulation) {
     test_patch(formulation, "elastic", {steel, {}});
     test_patch(formulation, "plastic", {steel, linear});
@@ -243,5 +245,6 @@ int main() {
     test_plastic_bending(elasticity);
     test_hourglass_flow(elasticity);
   }
-  return exit_code();
 }
+
+} // namespace explicit_forces_test

@@ -9,6 +9,8 @@
 #include <limits>
 #include <stdexcept>
 
+namespace explicit_kernels_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -152,7 +154,7 @@ void test_refused() {
         is_available(InstructionSet::scalar) && is_available(best_instruction_set()));
 }
 
-int main() {
+BILLET_TEST(explicit_kernels) {
   for_each_kernel([](const Formulation &formulation) {
     test_instruction_sets(formulation, "elastic", {steel, {}});
     test_instruction_sets(formulation, "linear hardening", {steel, linear});
@@ -176,5 +178,6 @@ int main() {
         Body(make_mesh(cube()), {steel, at_rate(voce, cowper_symonds(40., 5.))}, Formulation{})
                 .block()
                 .history_size() == 75);
-  return exit_code();
 }
+
+} // namespace explicit_kernels_test

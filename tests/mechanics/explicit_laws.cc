@@ -3,6 +3,8 @@
 
 #include "explicit_blocks.h"
 
+namespace explicit_laws_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -169,7 +171,7 @@ void test_again(const Formulation &formulation, const MaterialLaw &material) {
   check(name_of(formulation) + ", standing still changes nothing", error.value(), 1e-12);
 }
 
-int main() {
+BILLET_TEST(explicit_laws) {
   for (const auto element : all_elements()) {
     const Formulation with_neo_hookean = make_formulation(element, neo_hookean),
                       with_hypoelastic = make_formulation(element, hypoelastic);
@@ -187,5 +189,6 @@ int main() {
     test_compression(formulation);
     test_again(formulation, {steel, linear});
   });
-  return exit_code();
 }
+
+} // namespace explicit_laws_test

@@ -9,6 +9,8 @@
 
 #include <numeric>
 
+namespace explicit_step_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -281,7 +283,7 @@ void test_mass_scaling(Formulation formulation) {
         none.block().scale_mass(0.9 * shortest) == 0.);
 }
 
-int main() {
+BILLET_TEST(explicit_step) {
   Random random;
   const auto undeformed = random_states(random, 6, 0.2, 0., 0.),
              deformed = random_states(random, 8, 0.15, 0.2, 0.), far = random_states(random, 6, 0.1, 0.5, 0.),
@@ -305,5 +307,6 @@ int main() {
     formulation.linear_viscosity = 1.;
     test_bound("very viscous", {steel, {}}, formulation, fast);
   });
-  return exit_code();
 }
+
+} // namespace explicit_step_test

@@ -4,6 +4,8 @@
 // twin.
 #include "explicit_blocks.h"
 
+namespace history_transfer_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::LawFormulation;
@@ -41,7 +43,7 @@ testing::NodalArray to_nodal(const NodalTensor &u) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(history_transfer) {
   testing::Random random;
   const MaterialLaw material{ElasticModuli::from_young_poisson(200e3, 0.3),
                              VoceHardening{300., 500., 8., 100.}};
@@ -137,5 +139,6 @@ int main() {
     check(name + " to implicit, no hourglass energy", hourglass_energy.value(), 1e-9);
     check(name + " to implicit, history given to another and taken back", twin_error.value(), 0.);
   }
-  return testing::exit_code();
 }
+
+} // namespace history_transfer_test

@@ -8,6 +8,8 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+namespace locking_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -176,7 +178,7 @@ double limit_load_error(const double nu, const LawFormulation &formulation, cons
   return std::abs(reactions.back() / std::sin(phi) / (2. / std::sqrt(3.) * yield_stress * std::log(2.)) - 1.);
 }
 
-int main() {
+BILLET_TEST(locking) {
   using Element = ElementFormulation::Element;
   for_each_formulation([](const LawFormulation &formulation) {
     const std::string name = name_of(formulation) + ", ";
@@ -205,5 +207,6 @@ int main() {
         check(load, error, 5e-3);
     }
   });
-  return exit_code();
 }
+
+} // namespace locking_test

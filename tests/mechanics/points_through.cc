@@ -5,6 +5,8 @@
 
 #include "elements.h"
 
+namespace points_through_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -275,7 +277,7 @@ void test_layers() {
             find_thickness_axis(to_array(cube()), Tensor<1, 3>({1., 0.6, 0.})).has_value());
 }
 
-int main() {
+BILLET_TEST(points_through) {
   for (const auto &elasticity : metal_elasticities()) {
     test_bending(elasticity);
     test_transfer(elasticity);
@@ -285,5 +287,6 @@ int main() {
     }
   }
   test_layers();
-  return exit_code();
 }
+
+} // namespace points_through_test

@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+namespace reference_point_test {
+
 using namespace billet;
 using billet::testing::check;
 using Unit = dealii::GeometryInfo<3>;
@@ -24,7 +26,7 @@ dealii::Tensor<1, 3> map(const ElementVectors &corners, const dealii::Point<3> &
 
 } // namespace
 
-int main() {
+BILLET_TEST(reference_point) {
   billet::testing::Random random;
   ElementVectors brick{}, warped{};
   for (unsigned int a = 0; a < n_element_nodes; ++a)
@@ -79,5 +81,6 @@ int main() {
   check("a flat element has no coordinates", !find_reference_point(flat, map(flat, away)));
   check("nor has an equation that is singular",
         !solve_linear(dealii::Tensor<2, 3>(), dealii::Tensor<1, 3>({1., 0., 0.})));
-  return billet::testing::exit_code();
 }
+
+} // namespace reference_point_test

@@ -11,6 +11,8 @@
 
 #include <cmath>
 
+namespace sheet_strains_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -93,9 +95,10 @@ void check_limit() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(sheet_strains) {
   check_strains();
   check_normal();
   check_limit();
-  return exit_code();
 }
+
+} // namespace sheet_strains_test

@@ -5,6 +5,8 @@
 
 #include <map>
 
+namespace formats_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -50,7 +52,7 @@ void check_names_of_decks() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(formats) {
   check_names_of_decks();
   for (const std::string &sample : samples()) {
     const MeshFile mesh = load(read_text(sample));
@@ -85,5 +87,6 @@ int main() {
     return std::count(corner.begin(), corner.end(), id) > 0;
   });
   check("faces in two groups have an id of their own", walls.size() == 2 && n_common == 1);
-  return exit_code();
 }
+
+} // namespace formats_test

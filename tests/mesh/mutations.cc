@@ -6,7 +6,10 @@
 
 #include "billet/mesh/mesh_volumes.h"
 
-namespace billet::testing {
+namespace mutations_test {
+
+using namespace billet;
+using namespace billet::testing;
 
 namespace {
 
@@ -80,14 +83,10 @@ inline void check_cut_files() {
   }
 }
 
-} // namespace billet::testing
+BILLET_FUZZ_TARGET(mutations)
 
-#ifdef BILLET_FUZZ
-BILLET_FUZZ_TARGET
-#else
-int main(int argc, char **argv) {
-  billet::testing::fuzz_main(argc, argv);
-  billet::testing::check_cut_files();
-  return billet::testing::exit_code();
-}
+#ifndef BILLET_FUZZ
+BILLET_TEST(cut_files) { check_cut_files(); }
 #endif
+
+} // namespace mutations_test

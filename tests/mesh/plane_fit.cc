@@ -11,6 +11,8 @@
 
 #include <cmath>
 
+namespace plane_fit_test {
+
 using namespace billet;
 using billet::testing::check;
 using dealii::Point;
@@ -81,7 +83,7 @@ std::string refusal(const parameters::Body &body, Triangulation<3> &mesh) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(plane_fit) {
   const parameters::Body body = make_body();
   for (const int digits : {3, 4, 7, 8}) {
     Triangulation<3> mesh;
@@ -115,5 +117,6 @@ int main() {
   for_each_vertex(curved, [&](Point<3> &x) { x[1] += 0.05 * x[2]; }); // leaves both sides
   const std::string none = refusal(body, curved);
   check("a side that is off by much is none", none.empty() && distance_of_side(curved, body) > 1e-3);
-  return testing::exit_code();
 }
+
+} // namespace plane_fit_test

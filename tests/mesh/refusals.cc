@@ -2,6 +2,8 @@
 // What is wrong with a mesh file is said with the numbers of the file; doubled nodes can be merged.
 #include "samples.h"
 
+namespace refusals_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -176,7 +178,7 @@ void check_counts() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(refusals) {
   check_doubled();
   check_near();
   check_input();
@@ -188,5 +190,6 @@ int main() {
         refusal("*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n"
                 "8,0,1,1\n*ELEMENT,TYPE=C3D8I\n1,5,6,7,8,1,2,3,4\n")
             .empty());
-  return exit_code();
 }
+
+} // namespace refusals_test

@@ -6,6 +6,8 @@
 #include "mesh_measures.h"
 #include "samples.h"
 
+namespace users_meshes_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -80,7 +82,7 @@ bool is_as_expected_of_section(const MeshFile &mesh, const Expected &expected) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(users_meshes) {
   std::size_t n_refused = 0;
   const auto all = expected_meshes();
   for (const Expected &expected : all) {
@@ -103,5 +105,6 @@ int main() {
     check(expected.name, holds);
   }
   check("sixty meshes and more", all.size() >= 60 && n_refused >= 10);
-  return exit_code();
 }
+
+} // namespace users_meshes_test

@@ -6,6 +6,8 @@
 
 #include "billet/mesh/mesh_volumes.h"
 
+namespace volumes_test {
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -156,12 +158,13 @@ void check_names() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(volumes) {
   for (const std::string file : {"stack_msh22.msh", "stack_msh40.msh", "stack_msh41.msh", "stack_inp.inp"})
     check_stack(file);
   check("a file by materials", near(volume(take(read_text("block.ucd"), {"0"}).mesh), 4.));
   check_decks();
   check_numbers_and_sections();
   check_names();
-  return exit_code();
 }
+
+} // namespace volumes_test

@@ -4,6 +4,8 @@
 
 #include "../testing.h"
 
+namespace body_levels_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -44,7 +46,7 @@ struct Model {
 
 } // namespace
 
-int main() {
+BILLET_TEST(body_levels) {
   constexpr double safety = 1.25; // of an observed order
   const Model one{{0.5}, 2.};
   const BodyLevels of_one = one.climb(0.01, 9);
@@ -118,5 +120,6 @@ int main() {
   }
   check("differences that grow: no order, and all rise that rose",
         !rising.error().is_known && !rising.is_met());
-  return testing::exit_code();
 }
+
+} // namespace body_levels_test

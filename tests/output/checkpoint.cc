@@ -17,6 +17,8 @@
 #include <iomanip>
 #include <sstream>
 
+namespace checkpoint_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -163,10 +165,10 @@ void check_tables() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(checkpoint) {
   check_names();
   check_counts();
   check_tables();
-  return billet::testing::exit_code();
 }
+
+} // namespace checkpoint_test

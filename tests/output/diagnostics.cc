@@ -11,6 +11,8 @@
 #include <set>
 #include <sstream>
 
+namespace diagnostics_test {
+
 using billet::Diagnostic;
 using billet::Diagnostics;
 using billet::Severity;
@@ -156,10 +158,11 @@ void check_counts() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(diagnostics) {
   check_kinds();
   check_text();
   check_counts();
   check_saved();
-  return billet::testing::exit_code();
 }
+
+} // namespace diagnostics_test

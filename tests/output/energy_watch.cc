@@ -4,6 +4,8 @@
 #include "billet/output/energy_watch.h"
 #include "../testing.h"
 
+namespace energy_watch_test {
+
 using billet::EnergyLedger;
 using billet::EnergyWatch;
 using billet::testing::check;
@@ -32,7 +34,7 @@ auto because(const EnergyWatch::Cause cause) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(energy_watch) {
   {
     EnergyWatch watch(EnergyWatch::Balance::is_reported);
     check("what balances is no matter", watch.check(0.1, flight(0.6, 0.4)).empty());
@@ -95,5 +97,6 @@ int main() {
     EnergyWatch watch(EnergyWatch::Balance::is_left);
     check("no warning is printed if the run ends anyway", watch.check(1., flight(2., 0.)).empty());
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace energy_watch_test

@@ -10,6 +10,8 @@
 #include <limits>
 #include <stdexcept>
 
+namespace fail_together_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -51,8 +53,7 @@ bool all_throw(const std::function<void()> &action, const std::function<bool(con
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(fail_together) {
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) > 0)
     std::cout.setstate(std::ios::failbit); // one rank prints
 
@@ -104,5 +105,6 @@ int main(int argc, char *argv[]) {
   check("there the general kind becomes 'bad-input'",
         all_throw<InputError>([] { check_before_start([] { throw SolutionFailure("It's wrong"); }); },
                               [&](const auto &error) { return is_same(error.diagnostic(), plain); }));
-  return billet::testing::exit_code();
 }
+
+} // namespace fail_together_test

@@ -5,6 +5,8 @@
 
 #include <string>
 
+namespace force_choice_test {
+
 using billet::ForceChoice;
 using billet::testing::check;
 
@@ -20,7 +22,7 @@ std::string text(const ForceChoice &choice) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(force_choice) {
   {
     ForceChoice choice(2, 5, 10.);
     check("all loads that there is room for", text(choice) == "0 1");
@@ -54,5 +56,6 @@ int main() {
     check("a moment counts by the size of the model",
           choice.update({{1., 0.}, {0., 20.}}) && text(choice) == "1M");
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace force_choice_test

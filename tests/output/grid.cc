@@ -13,6 +13,8 @@
 #include <fstream>
 #include <iterator>
 
+namespace grid_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -149,8 +151,7 @@ void test_strain() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(grid) {
   const std::size_t rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
                     n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   if (rank != 0)
@@ -162,5 +163,6 @@ int main(int argc, char *argv[]) {
   test_names();
   test_tensors();
   test_strain();
-  return billet::testing::exit_code();
 }
+
+} // namespace grid_test

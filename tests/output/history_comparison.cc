@@ -9,6 +9,8 @@
 
 #include <fstream>
 
+namespace history_comparison_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -35,7 +37,7 @@ unsigned int levels_of(const std::string &counts, const unsigned int refinements
 
 } // namespace
 
-int main() {
+BILLET_TEST(history_comparison) {
   // Straight lines, with rows that do not match.
   std::vector<std::vector<double>> coarse(2), fine(2);
   for (const double t : {0., 0.5, 1.}) {
@@ -114,5 +116,6 @@ int main() {
   const parameters::Scene wall = read_box("8, 1, 8", 0, "x = 0 ; y = 0");
   check("a wall of one element has no coarser mesh", count_coarser_levels(wall, 2) == 0);
   check("and finer ones divide it", at_mesh_levels(wall, {1}).bodies[0].mesh.refinements == 1);
-  return testing::exit_code();
 }
+
+} // namespace history_comparison_test

@@ -3,12 +3,15 @@
 
 #include "../testing.h"
 
+namespace nearest_name_test {
+
 using billet::did_you_mean;
 using billet::nearest_name;
 using billet::testing::check;
 
 // Names that a scene file misspells.
-int main() {
+
+BILLET_TEST(nearest_name) {
   const std::vector<std::string> known = {
       "End time",     "Initial step",         "Young's modulus", "Poisson ratio",
       "Yield stress", "Friction coefficient", "Scheme",          "E"};
@@ -31,5 +34,6 @@ int main() {
   check("none is known", nearest_name("End time", {}).empty());
   check("in a message", did_you_mean("Endtime", known) == "; did you mean 'End time'?");
   check("no advice", did_you_mean("Temperature", known).empty());
-  return billet::testing::exit_code();
 }
+
+} // namespace nearest_name_test

@@ -3,11 +3,14 @@
 
 #include "../testing.h"
 
+namespace times_test {
+
 using billet::testing::check;
 namespace times = billet::times;
 
 // Times that sums of steps reach with round-off, and times that are others.
-int main() {
+
+BILLET_TEST(times) {
   double sum = 0.;
   for (unsigned int step = 0; step < 1000000; ++step)
     sum += 1e-6;
@@ -32,5 +35,6 @@ int main() {
   check("a part of an interval is none", times::count_intervals(2.999, 1.) == 2.);
   check("a rest needs a step", times::count_steps(2.001, 1.) == 3.);
   check("there is one step at least", times::count_steps(1e-12, 1.) == 1.);
-  return billet::testing::exit_code();
 }
+
+} // namespace times_test

@@ -9,6 +9,8 @@
 
 #include <fstream>
 
+namespace unneeded_costs_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -58,8 +60,7 @@ void check_remedies() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(unneeded_costs) {
   RunCosts costs;
   costs.all = 20.;
   check("nothing", seconds(costs), 0.);
@@ -98,5 +99,6 @@ int main(int argc, char *argv[]) {
   costs.error_control = 0.8;
   check("a short run", seconds(costs), 0.);
   check_remedies();
-  return testing::exit_code();
 }
+
+} // namespace unneeded_costs_test

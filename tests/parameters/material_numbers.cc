@@ -8,6 +8,8 @@
 
 #include <fstream>
 
+namespace material_numbers_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -25,8 +27,7 @@ parameters::Scene read(const std::string &bodies) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(material_numbers) {
   const std::string rubber = "      set Elasticity = Mooney-Rivlin\n      set Poisson ratio = 0.4\n",
                     steel = "      set Young modulus = 200e3\n      set Yield stress = 300\n";
   const parameters::Scene scene =
@@ -42,5 +43,6 @@ int main(int argc, char *argv[]) {
                                                      parameters::find_material_texts(scene, "e"));
   check("what differs is named", changed.size() == 2 && changed[0].key == "Backstress moduli" &&
                                      changed[0].before == "default" && changed[0].after == "1000, 200");
-  return testing::exit_code();
 }
+
+} // namespace material_numbers_test

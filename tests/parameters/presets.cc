@@ -10,6 +10,8 @@
 
 #include <fstream>
 
+namespace presets_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -90,10 +92,10 @@ void check_number_types() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(presets) {
   check_flow_curves();
   check_default_steps();
   check_number_types();
-  return testing::exit_code();
 }
+
+} // namespace presets_test

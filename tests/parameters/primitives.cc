@@ -15,6 +15,8 @@
 #include <map>
 #include <set>
 
+namespace primitives_test {
+
 using namespace billet;
 using parameters::Primitive;
 
@@ -165,10 +167,10 @@ void test_arguments() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(primitives) {
   for (const Primitive &primitive : parameters::primitives())
     test(primitive);
   test_arguments();
-  return testing::exit_code();
 }
+
+} // namespace primitives_test

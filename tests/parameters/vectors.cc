@@ -4,6 +4,8 @@
 
 #include "../checks.h"
 
+namespace vectors_test {
+
 using namespace billet;
 using testing::check;
 
@@ -15,7 +17,7 @@ bool has(const std::string &text, const std::vector<std::string> &components) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(vectors) {
   check("semicolons", has("0 ; 0.5*t ;-2e3", {"0", "0.5*t", "-2e3"}));
   check("commas", has("0,0,-2000", {"0", "0", "-2000"}));
   check("commas and blanks", has(" 0 , 0 , -0.5*t ", {"0", "0", "-0.5*t"}));
@@ -31,5 +33,6 @@ int main() {
   check("a gap", has("0, , 1", {"0", "", "1"}) && has_empty_component(split_vector("0 ; ; 1")) &&
                      !has_empty_component(split_vector("0, 0, 1")));
   check("nothing", has("", {}) && has("  ", {}));
-  return testing::exit_code();
 }
+
+} // namespace vectors_test

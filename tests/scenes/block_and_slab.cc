@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace block_and_slab_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -48,10 +50,10 @@ void test_margin() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(block_and_slab) {
   test_end("block that flies onto the end", make_scene(-0.0145, 5e-4, "50", "-3", 5e-4));
   test_end("block that lands half beside the end", make_scene(-0.0057, 1e-4, "0", "-3", 2e-4));
   test_margin();
-  return testing::exit_code();
 }
+
+} // namespace block_and_slab_test

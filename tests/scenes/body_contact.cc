@@ -10,6 +10,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
 
+namespace body_contact_test {
+
 using namespace billet;
 using dealii::Tensor;
 
@@ -201,8 +203,7 @@ void check_no_couplings() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(body_contact) {
   for (const auto &[facets, name] :
        {std::pair<Facets, std::string>{Facets::planed, "planed: "}, {Facets::overlap, "overlap: "}}) {
     Blocks blocks(facets);
@@ -221,5 +222,6 @@ int main(int argc, char *argv[]) {
     check(name + "an obstacle is named", checks.describe_obstacle().find("'joint'") != std::string::npos);
   }
   check_no_couplings();
-  return testing::is_first_rank() ? testing::exit_code() : 0;
 }
+
+} // namespace body_contact_test

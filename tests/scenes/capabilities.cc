@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace capabilities_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -30,8 +32,7 @@ Counts count(const parameters::Scene &parameters) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(capabilities) {
   const parameters::Scene full = testing::read_shipped_scene("billet_upsetting.prm");
   const Counts all = count(full);
   check("the whole scene has histories of elements and friction",
@@ -56,5 +57,6 @@ int main(int argc, char *argv[]) {
   check("without contact: no history of contact",
         free.of_contact == 0 && free.n_contact_nodes == 0 && !free.capabilities.contact);
   check("without contact: a symmetric matrix", free.has_symmetric_matrix);
-  return billet::testing::exit_code();
 }
+
+} // namespace capabilities_test

@@ -8,6 +8,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/physics/transformations.h>
 
+namespace carried_friction_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -93,8 +95,7 @@ void cycle(parameters::Scene parameters, const double poisson_ratio) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(carried_friction) {
   const parameters::Scene about_normal =
       parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
   Tensor<1, 3> x, z;
@@ -110,5 +111,6 @@ int main(int argc, char *argv[]) {
 
   for (const double poisson_ratio : {0.3, 0.})
     cycle(about_normal, poisson_ratio);
-  return billet::testing::exit_code();
 }
+
+} // namespace carried_friction_test

@@ -12,6 +12,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace contact_potential_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::ExplicitRun;
@@ -176,8 +178,7 @@ void test_long_steps() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(contact_potential) {
   const auto test = [](const std::string &name, const testing::SurfacePart &part) {
     test_potential(name, part, 0.002, 0.008);
     test_potential(name + ", deep", part, 0.02, 0.4);
@@ -191,5 +192,6 @@ int main(int argc, char *argv[]) {
   test_chatter();
   test_deep_friction();
   test_long_steps();
-  return testing::exit_code();
 }
+
+} // namespace contact_potential_test

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace crossing_edges_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -58,8 +60,7 @@ Outcome run(const bool edges, const unsigned int n_elements = 3, const double as
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(crossing_edges) {
   const Outcome with = run(true), without = run(false);
   check("edges: the cubes fly apart", with.velocity > 0.5);
   check("edges: hold each other out", with.depth, 0.05);
@@ -80,5 +81,6 @@ int main(int argc, char *argv[]) {
       check(name + "energy made", outcome.made, is_coarse ? 0.06 : 0.03);
       check(name + "energy lost", outcome.lost, 0.045);
     }
-  return testing::exit_code();
 }
+
+} // namespace crossing_edges_test

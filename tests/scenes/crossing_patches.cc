@@ -13,6 +13,8 @@
 #include <map>
 #include <sstream>
 
+namespace crossing_patches_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -114,8 +116,7 @@ void compare(const std::string &name, const Course &whole, const Course &pieces)
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(crossing_patches) {
   struct Motion {
     std::string name, pull, turn;
     double friction_coefficient;
@@ -140,5 +141,6 @@ int main(int argc, char *argv[]) {
     compare(motion.name + ", sectors", whole, run(scene, sectors()));
     compare(motion.name + ", Coons patches", whole, run(scene, coons_patches()));
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace crossing_patches_test

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace deformable_dies_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -52,8 +54,7 @@ double difference(const double ratio, const std::vector<double> &rigid) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(deformable_dies) {
   const std::vector<double> rigid = rigid_forces();
   const double soft = difference(1., rigid), stiff = difference(1000., rigid);
   check("dies as stiff as the billet press less", soft > 2. * stiff);
@@ -77,5 +78,6 @@ int main(int argc, char *argv[]) {
   for (const auto &node : reports[0])
     is_open = is_open && node.status == ContactStatus::open && node.traction.norm() == 0.;
   check("the dies have left", is_open && state.body_pair_loads[0].force.norm() == 0.);
-  return testing::exit_code();
 }
+
+} // namespace deformable_dies_test

@@ -11,6 +11,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace divided_facets_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::ExplicitRun;
@@ -238,8 +240,7 @@ void test_edge() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(divided_facets) {
   test_parts();
   test_potential("small ball", {"sphere", "set Centre = 0.22, 0.27, -0.17\nset Radius = 0.2"});
   test_potential("ridge", {"extruded profile", "set Corners = -1, -1 ; 0.23, 0.03 ; 1, -1\n"
@@ -250,5 +251,6 @@ int main(int argc, char *argv[]) {
   test_tangent();
   test_bounce();
   test_edge();
-  return testing::exit_code();
 }
+
+} // namespace divided_facets_test

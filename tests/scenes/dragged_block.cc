@@ -9,6 +9,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace dragged_block_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -88,8 +90,7 @@ parameters::Scene make_scene(const testing::SurfacePart &part, const Tensor<1, 3
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(dragged_block) {
   const Tensor<1, 3> y({0., 1., 0.}), z({0., 0., 1.});
 
   const auto pulled = slide(make_scene({"plane", ""}, z, 0., 0.4, 0.1), 0., 0.4);
@@ -134,5 +135,6 @@ int main(int argc, char *argv[]) {
   check("plane turning under it: against the velocity, as near as the step", spun.direction, 0.05);
   check("plane turning under it: ... and nearer with shorter steps",
         std::abs(spun_finely.direction / spun.direction - 0.25), 0.1);
-  return billet::testing::exit_code();
 }
+
+} // namespace dragged_block_test

@@ -9,6 +9,8 @@
 
 #include <cstdlib>
 
+namespace drop_hammer_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -28,8 +30,7 @@ void inspect(const SolutionState &state, Impact &impact) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(drop_hammer) {
   parameters::Scene scene = testing::read_shipped_scene("drop_hammer.prm");
   Impact impact, quick;
   testing::SceneRun run(scene);
@@ -48,5 +49,6 @@ int main(int argc, char *argv[]) {
   check("energy", impact.drift / energy, 1e-3);
   check("numerical dissipation", std::abs(impact.energies.numerical) / energy, 1e-3);
   check("all of it in less than 200 steps", run.control.n_steps() < 200);
-  return testing::exit_code();
 }
+
+} // namespace drop_hammer_test

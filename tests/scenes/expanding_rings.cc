@@ -5,11 +5,12 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace expanding_rings_test {
+
 using namespace billet;
 using billet::testing::check;
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(expanding_rings) {
   using Facets = FacetMethod;
   for (const bool two_passes : {true, false})
     for (const Facets facets : {Facets::planed, Facets::bilinear}) {
@@ -30,5 +31,6 @@ int main(int argc, char *argv[]) {
       check(name + ": energy lost", lost, 1e-2);
       check(name + ": they touch", force > 0.);
     }
-  return testing::exit_code();
 }
+
+} // namespace expanding_rings_test

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace explicit_bar_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -49,8 +51,7 @@ Impact run(const unsigned int n, const double penalty) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(explicit_bar) {
   const Impact coarse = run(40, 1.), fine = run(160, 1.);
   check("touches after gap over velocity", std::abs(fine.begin / 20e-6 - 1.), 0.02);
   const auto duration_error = [](const Impact &i) { return std::abs((i.fall - i.rise) / 80e-6 - 1.); };
@@ -66,5 +67,6 @@ int main(int argc, char *argv[]) {
     std::cout << "penalty " << penalty << " E/h: ";
     check("energy", run(80, penalty).drift, 1e-3);
   }
-  return testing::exit_code();
 }
+
+} // namespace explicit_bar_test

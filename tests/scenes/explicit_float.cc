@@ -9,6 +9,8 @@
 #include <map>
 #include <vector>
 
+namespace explicit_float_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::WorstError;
@@ -102,13 +104,13 @@ void test_flight(const BrickElement element, const std::string &elasticity) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(explicit_float) {
   for (const auto element : {BrickElement::mean_dilatation, BrickElement::one_point}) {
     test_taylor_bar(element);
     test_flight(element, "Hencky");
     test_flight(element, "neo-Hookean");
     test_flight(element, "hypoelastic");
   }
-  return testing::exit_code();
 }
+
+} // namespace explicit_float_test

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace explicit_motion_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::ExplicitRun;
@@ -275,8 +277,7 @@ void test_free_tool() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(explicit_motion) {
   test_flight();
   test_fall();
   test_mass_scaling();
@@ -287,5 +288,6 @@ int main(int argc, char *argv[]) {
   test_sector();
   test_removal();
   test_free_tool();
-  return testing::exit_code();
 }
+
+} // namespace explicit_motion_test

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <vector>
 
+namespace explicit_ranks_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -56,8 +58,7 @@ History run(const unsigned int n) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(explicit_ranks) {
   const History one = run(1);
   for (unsigned int n = 2; n <= dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); ++n) {
     const History several = run(n);
@@ -74,5 +75,6 @@ int main(int argc, char *argv[]) {
       check("  " + one[c].first, maximum > 0. ? error.value() / maximum : 1., 1e-10);
     }
   }
-  return testing::exit_code();
 }
+
+} // namespace explicit_ranks_test

@@ -3,6 +3,8 @@
 // forces of pairs are those of their tools.
 #include "explicit_run.h"
 
+namespace explicit_reactions_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::WorstError;
@@ -46,12 +48,12 @@ void balance(const std::string &name, const bool is_loaded) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(explicit_reactions) {
   for (const std::string name : {"contact_patch", "elastic_bar", "expanding_rings", "explicit_ranks",
                                  "hard_blow", "held_ring", "light_tool", "sliding_block"})
     balance(name, true);
   for (const std::string name : {"block_and_slab", "restart_ring", "springback", "two_bars"})
     balance(name, false);
-  return testing::exit_code();
 }
+
+} // namespace explicit_reactions_test

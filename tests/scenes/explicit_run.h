@@ -6,6 +6,7 @@
 #include "billet/solve/explicit/explicit_dynamics.h"
 
 #include "../testing.h"
+#include "scene_run.h"
 
 #include <array>
 #include <cmath>
@@ -59,10 +60,6 @@ inline dealii::Tensor<1, 3> mean_of_body(const ExplicitRun &run, const Vector &f
     }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, run.discretization.communicator());
   return dealii::Tensor<1, 3>({sums[0] / sums[3], sums[1] / sums[3], sums[2] / sums[3]});
-}
-
-inline parameters::Scene read_test_scene(const std::string &name) {
-  return parameters::Scene::read(std::string(SOURCE_DIR) + "/" + name);
 }
 
 } // namespace billet::testing

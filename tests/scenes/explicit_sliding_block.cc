@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace explicit_sliding_block_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -43,12 +45,12 @@ void test(const std::string &name, const bool two_passes, const FacetMethod face
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(explicit_sliding_block) {
   using Facets = FacetMethod;
   test("planed, two passes", true, Facets::planed);
   test("planed, one pass", false, Facets::planed);
   test("bilinear, two passes", true, Facets::bilinear);
   test("bilinear, one pass", false, Facets::bilinear);
-  return testing::exit_code();
 }
+
+} // namespace explicit_sliding_block_test

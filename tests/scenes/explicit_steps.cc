@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <vector>
 
+namespace explicit_steps_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -62,12 +64,12 @@ double drift_of_tool(const double tool_mass, const double resolution) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(explicit_steps) {
   test_growth();
   check("tool of 0.1 g: energy", drift_of_tool(1e-4, 2.), 0.14);
   check("tool of 0.1 g, finer steps: energy", drift_of_tool(1e-4, 8.), 0.02);
   check("tool of 10 g: energy", drift_of_tool(1e-2, 2.), 0.07);
   check("tool of 1 kg: energy", drift_of_tool(1., 2.), 0.01);
-  return testing::exit_code();
 }
+
+} // namespace explicit_steps_test

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace explicit_two_bars_test {
+
 using namespace billet;
 using billet::testing::check;
 using dealii::Tensor;
@@ -44,8 +46,10 @@ void test(const double penalty, const unsigned int across, const bool two_passes
                      right = testing::mean_of_body(bars, bars.state().velocities, 1);
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
     std::cout.setstate(std::ios::failbit); // one rank prints
-  std::cout << "penalty " << penalty << " E/h, " << (across == 2 ? "matching, " : "not matching, ")
-            << (two_passes ? "two passes, " : "one pass, ") << name_of(facets) << ":" << std::endl;
+  std::ostringstream title;
+  title << "penalty " << penalty << " E/h, " << (across == 2 ? "matching, " : "not matching, ")
+        << (two_passes ? "two passes, " : "one pass, ") << name_of(facets);
+  std::cout << title.str() << ":" << std::endl;
   check("  touch after gap over velocity", std::abs(first_touch - 10e-6), 1.01e-6);
   // A stiffer penalty makes a sharper front, of which bulk viscosity takes more: 2 % of the energy at 10 E/h,
   // and with it 1.1 % of the velocities.
@@ -56,7 +60,8 @@ void test(const double penalty, const unsigned int across, const bool two_passes
   check("  parted", bars.state().body_pair_loads[0].force.norm() == 0.);
   check("  momentum", momentum.value(), 1e-12);
   check("  energy", bars.worst_drift, 1e-3);
-  std::cout << "  " << left[0] << " and " << right[0] << std::endl;
+  billet::testing::record(title.str() + ", left", left[0]);
+  billet::testing::record(title.str() + ", right", right[0]);
 }
 
 /// The right bar is four times as stiff, so that c is twice as large there. While the fronts run, the force
@@ -87,8 +92,7 @@ void test_unequal(const std::string &name, const parameters::ContactPair::Penalt
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(explicit_two_bars) {
   using Facets = FacetMethod;
   for (const double penalty : {0.1, 1., 10.})
     for (const unsigned int across : {2, 3})
@@ -100,5 +104,6 @@ int main(int argc, char *argv[]) {
   using PenaltyOf = parameters::ContactPair::PenaltyOf;
   test_unequal("stiffer", PenaltyOf::stiffer, 4.);
   test_unequal("series", PenaltyOf::series, 4. / (1. + 4.));
-  return testing::exit_code();
 }
+
+} // namespace explicit_two_bars_test

@@ -9,6 +9,8 @@
 
 #include <cmath>
 
+namespace firm_contact_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -125,8 +127,7 @@ void check_thickness() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(firm_contact) {
   // Uniaxial stress in Hencky's law: τ = E ln λ, and the force is τ A_0/λ.
   const double stretch = 0.9, exact = -1000. * std::log(stretch) / stretch;
   const auto error = [&](const double force) { return std::abs(std::abs(force) / exact - 1.); };
@@ -140,5 +141,6 @@ int main(int argc, char *argv[]) {
   check_motion();
   check_confinement();
   check_thickness();
-  return testing::exit_code();
 }
+
+} // namespace firm_contact_test

@@ -5,11 +5,12 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace flat_punch_test {
+
 using namespace billet;
 using billet::testing::check;
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(flat_punch) {
   const parameters::Scene parameters = parameters::Scene::read(std::string(SOURCE_DIR) + "/flat_punch.prm");
   testing::SceneRun run(parameters);
   run.finish();
@@ -18,5 +19,6 @@ int main(int argc, char *argv[]) {
   const double force = w * 6. * stiffness / (a * a * (3. * l - 4. * a));
   check("the punch bears what a beam does", testing::near(run.load(0).force[2], -force, 0.002));
   check("and the die", testing::near(run.load(1).force[2], force, 0.002));
-  return testing::exit_code();
 }
+
+} // namespace flat_punch_test

@@ -9,6 +9,8 @@
 #include "../extension/pulled_cube.h"
 #include "../extension/read_field.h"
 
+namespace flow_rules_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::has;
@@ -229,8 +231,7 @@ void test_refusals() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(flow_rules) {
   for (const std::string element : testing::all_element_names)
     for (const auto &[name, material] : materials) {
       test_static(element, name, material);
@@ -243,5 +244,6 @@ int main(int argc, char *argv[]) {
   test_restart<testing::ExplicitStops>("explicit", true);
   test_output();
   test_refusals();
-  return testing::exit_code();
 }
+
+} // namespace flow_rules_test

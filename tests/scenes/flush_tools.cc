@@ -4,6 +4,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace flush_tools_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -18,8 +20,7 @@ parameters::Scene read() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(flush_tools) {
   SceneRun both(read());
   both.finish();
   const auto &loads = both.problem.state().tool_loads;
@@ -35,5 +36,6 @@ int main(int argc, char *argv[]) {
         1e-8 * alone[0].force.norm());
   check("neither pushes sideways", std::hypot(loads[0].force[0], loads[1].force[0]),
         1e-8 * alone[0].force.norm());
-  return billet::testing::exit_code();
 }
+
+} // namespace flush_tools_test

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+namespace folding_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -110,8 +112,7 @@ void test_two_sides() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(folding) {
   using Facets = FacetMethod;
   test("ring, overlap", "ring_crush.prm", 100, Facets::overlap);
   test("ring, planed", "ring_crush.prm", 100, Facets::planed);
@@ -119,5 +120,6 @@ int main(int argc, char *argv[]) {
   test_with_friction("ring, friction", "ring_crush.prm", 100);
   test_with_friction("block, friction", "hollow_block.prm", 20);
   test_two_sides();
-  return testing::exit_code();
 }
+
+} // namespace folding_test

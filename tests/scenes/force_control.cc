@@ -8,6 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace force_control_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -86,8 +88,7 @@ void press(const std::string &name, const parameters::Scene &given) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(force_control) {
   if (!testing::is_first_rank())
     std::cout.setstate(std::ios::failbit); // one rank speaks
   parameters::Scene billet = testing::read_shipped_scene("billet_upsetting.prm");
@@ -202,5 +203,6 @@ int main(int argc, char *argv[]) {
       check(name + ": the bodies give it to what fades",
             std::abs(energies.drift() - drift_before) / elastic_before, 0.02);
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace force_control_test

@@ -8,10 +8,11 @@
 #include <fstream>
 #include <iomanip>
 
+namespace force_curve_test {
+
 using billet::testing::SceneRun;
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(force_curve) {
   SceneRun scene(billet::testing::read_shipped_scene("billet_upsetting.prm"));
   std::ofstream output(billet::testing::is_first_rank() ? "output" : "/dev/null");
   output << std::setprecision(11) << "time iterations force area plastic_work\n";
@@ -20,3 +21,5 @@ int main(int argc, char *argv[]) {
            << " " << scene.load().area << " " << scene.problem.state().energies.plastic << "\n";
   });
 }
+
+} // namespace force_curve_test

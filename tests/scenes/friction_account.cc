@@ -12,6 +12,8 @@
 #include <array>
 #include <cstdlib>
 
+namespace friction_account_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -45,8 +47,7 @@ Result run(const parameters::Scene &scene, const std::string &name) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(friction_account) {
   const parameters::Scene block = testing::read_test_scene("friction_account.prm");
   using Set = std::function<void(parameters::Scene &)>;
   const std::vector<std::pair<std::string, Set>> methods{
@@ -87,5 +88,6 @@ int main(int argc, char *argv[]) {
   parameters::Scene bodies = testing::read_test_scene("friction_account_of_bodies.prm");
   const Result on_slab = run(bodies, "on an elastic slab");
   check("  all of the energy", std::abs(on_slab.dissipated / (0.5 * mass) - 1.), 0.02);
-  return testing::exit_code();
 }
+
+} // namespace friction_account_test

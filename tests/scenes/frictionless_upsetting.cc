@@ -8,6 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace frictionless_upsetting_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -61,8 +63,7 @@ std::array<double, 3> run(const Variant &variant) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(frictionless_upsetting) {
   check("closed form at 60 %: 764.53 kN", std::abs(closed_form(0.60) - 764.53e3), 5.);
   check("closed form at 64 %: 877.02 kN", std::abs(closed_form(0.64) - 877.02e3), 5.);
 
@@ -86,5 +87,6 @@ int main(int argc, char *argv[]) {
   const double hardest = run({1, 5, 50, 100. * paper})[1];
   check("ten times the penalty, a tenth of the error", std::abs(hard / soft - 0.1), 0.01);
   check("a hundred times the penalty, a hundredth", std::abs(hardest / soft - 0.01), 0.005);
-  return billet::testing::exit_code();
 }
+
+} // namespace frictionless_upsetting_test

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <sstream>
 
+namespace handed_over_test {
+
 using namespace billet;
 
 namespace {
@@ -94,8 +96,7 @@ Result hand_over(const std::string &name, parameters::Scene parameters, const un
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(handed_over) {
   parameters::Scene press = testing::read_test_scene("restart_press.prm");
   press.time_stepping.end_time = 0.4;
   parameters::Scene impact = testing::read_test_scene("explicit_ranks.prm");
@@ -116,5 +117,6 @@ int main(int argc, char *argv[]) {
     testing::check(name + " is handed over before its end", result.is_half_way);
     testing::check(name + ": history", result.has_same_history);
   }
-  return testing::exit_code();
 }
+
+} // namespace handed_over_test

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace held_ring_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -25,8 +27,7 @@ std::array<double, 2> run(const FacetMethod facets) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(held_ring) {
   using Facets = FacetMethod;
   for (const Facets facets : {Facets::planed, Facets::bilinear}) {
     const std::string name = facets == Facets::planed ? "planed" : "bilinear";
@@ -35,5 +36,6 @@ int main(int argc, char *argv[]) {
     check(name + ": energy while it is held", change, 1e-4);
   }
   check("mean gap: energy is made", run(Facets::mean_gap)[1] < -0.1);
-  return testing::exit_code();
 }
+
+} // namespace held_ring_test

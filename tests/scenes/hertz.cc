@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <fstream>
 
+namespace hertz_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -73,8 +75,7 @@ void write_mesh(const std::string &name, const std::vector<double> &grid) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(hertz) {
   write_mesh("half_space.msh", make_grid(6));
   std::filesystem::copy_file(std::string(SOURCE_DIR) + "/hertz.prm", "hertz.prm",
                              std::filesystem::copy_options::overwrite_existing);
@@ -110,5 +111,6 @@ int main(int argc, char *argv[]) {
   check("nodes well inside the contact", n > 15);
   check("contact radius", std::abs(std::sqrt(A / B) / a - 1.), 0.02);
   check("largest pressure", std::abs(std::sqrt(A) / (2. * effective * a / (M_PI * R)) - 1.), 0.02);
-  return billet::testing::exit_code();
 }
+
+} // namespace hertz_test

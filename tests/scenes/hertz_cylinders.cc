@@ -8,12 +8,13 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace hertz_cylinders_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(hertz_cylinders) {
   auto scene = testing::read_shipped_scene("hertz_cylinders.prm");
   scene.bodies[0].mesh.arguments = "28, 1, 12 : 0, 0, -1 : 1, 0.1, 0 : true";
   scene.bodies[1].mesh.arguments = "24, 1, 12 : 0, 0, 0 : 1, 0.1, 1 : true";
@@ -67,5 +68,6 @@ int main(int argc, char *argv[]) {
   check("forces on the way back", back.value(), 1e-8);
   run.finish();
   testing::check_unloaded("", run, stored);
-  return testing::exit_code();
 }
+
+} // namespace hertz_cylinders_test

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace implicit_contact_energy_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -57,8 +59,7 @@ Run run(parameters::Scene scene, const double penalty, const double friction = 0
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(implicit_contact_energy) {
   parameters::Scene bar = testing::read_test_scene("elastic_bar.prm");
   bar.bodies[0].mesh.arguments = "16, 1, 1 : 0.002, 0, 0 : 0.202, 0.0125, 0.0125 : true";
   testing::set_newmark(bar); // which takes nothing by itself
@@ -80,5 +81,6 @@ int main(int argc, char *argv[]) {
   check("a brick: no energy is made", block.made, 0.01);
   check("  a warning is printed if contact takes energy", block.is_reported);
   check("  and that impacts do it", block.names_impacts);
-  return testing::exit_code();
 }
+
+} // namespace implicit_contact_energy_test

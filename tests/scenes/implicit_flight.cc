@@ -4,6 +4,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace implicit_flight_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -38,8 +40,7 @@ Flight fly(const unsigned int n_steps, const bool is_newmark) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(implicit_flight) {
   for (const bool is_newmark : {true, false}) {
     const Flight coarse = fly(32, is_newmark), fine = fly(64, is_newmark);
     if (std::getenv("SHOW"))
@@ -54,5 +55,6 @@ int main(int argc, char *argv[]) {
           0.2);
     check("  energy", std::max(fine.drift, fine.numerical), 1e-3);
   }
-  return testing::exit_code();
 }
+
+} // namespace implicit_flight_test

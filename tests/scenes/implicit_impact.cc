@@ -7,6 +7,8 @@
 
 #include <cstdlib>
 
+namespace implicit_impact_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -85,8 +87,7 @@ void check_impact(const std::string &name, const Impact &impact) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(implicit_impact) {
   parameters::Scene scene = make_scene();
   check_impact("generalised-alpha", run(scene));
   testing::set_hht(scene, -0.2);
@@ -115,5 +116,6 @@ int main(int argc, char *argv[]) {
   const Impact automatic = run(scene);
   check_impact("automatic steps", automatic);
   check("  cut where the wall is met", automatic.n_cuts > 0);
-  return testing::exit_code();
 }
+
+} // namespace implicit_impact_test

@@ -9,6 +9,8 @@
 
 #include <cstdlib>
 
+namespace implicit_motion_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -294,8 +296,7 @@ void check_failed_steps(const bool by_accuracy) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(implicit_motion) {
   check_heavy_tools();
   check_moving_supports();
   check_removal();
@@ -303,5 +304,6 @@ int main(int argc, char *argv[]) {
   check_accuracy();
   check_failed_steps(false);
   check_failed_steps(true);
-  return testing::exit_code();
 }
+
+} // namespace implicit_motion_test

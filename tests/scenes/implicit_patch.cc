@@ -10,6 +10,8 @@
 #include <iomanip>
 #include <sstream>
 
+namespace implicit_patch_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -84,8 +86,7 @@ void test_unloading(const std::string &name, parameters::Scene scene, const doub
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(implicit_patch) {
   const dealii::Tensor<1, 3> n({2. / 3., -1. / 3., 2. / 3.});
   const auto turned = testing::read_shipped_scene("patch_test.prm");
   using Passes = parameters::ContactPair::Passes;
@@ -178,5 +179,6 @@ int main(int argc, char *argv[]) {
   auto augmented = turned;
   augmented.pairs[0].penetration_tolerance = 1e-6;
   test_unloading("turned block, augmented", augmented, 0.2, -n);
-  return testing::exit_code();
 }
+
+} // namespace implicit_patch_test

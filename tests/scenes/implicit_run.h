@@ -10,10 +10,6 @@
 
 namespace billet::testing {
 
-inline parameters::Scene read_test_scene(const std::string &name) {
-  return parameters::Scene::read(std::string(SOURCE_DIR) + "/" + name);
-}
-
 inline void set_newmark(parameters::Scene &scene) { scene.implicit_dynamics.integrator = newmark(0.25, 0.5); }
 inline void set_hht(parameters::Scene &scene, const double alpha) {
   scene.implicit_dynamics.integrator = hilber_hughes_taylor(alpha);

@@ -8,11 +8,12 @@
 #include <cstdlib>
 #include <iomanip>
 
+namespace implicit_sliding_test {
+
 using namespace billet;
 using billet::testing::SceneRun;
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(implicit_sliding) {
   constexpr double friction = 0.25, gravity = 4000., full_weight = 2.5e-3;
   SceneRun run(testing::read_test_scene("implicit_sliding.prm"));
   const SolutionState &state = run.problem.state();
@@ -29,7 +30,7 @@ int main(int argc, char *argv[]) {
   });
   const double way = testing::mean_of_body(run, state.displacements)[0] - start;
   if (!testing::is_first_rank())
-    return testing::exit_code();
+    return;
   const auto check = [](const auto &...arguments) { testing::check(arguments...); };
   if (std::getenv("SHOW") != nullptr)
     std::cout << speed << " " << way << " " << way / (speed * speed / (2. * friction * gravity)) << " "
@@ -42,5 +43,6 @@ int main(int argc, char *argv[]) {
   check("energy", drift, 5e-3);
   std::cout << std::setprecision(6) << "way " << way << "\nfriction " << state.energies.friction
             << "\nnumerical dissipation " << state.energies.numerical << std::endl;
-  return testing::exit_code();
 }
+
+} // namespace implicit_sliding_test

@@ -10,6 +10,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace implicit_tangent_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -52,8 +54,7 @@ void check_scene(const std::string &name, const parameters::Scene &scene) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(implicit_tangent) {
   parameters::Scene scene = make_scene();
   check_scene("generalised-alpha", scene);
   scene.implicit_dynamics.integrator = hilber_hughes_taylor(-0.2);
@@ -73,5 +74,6 @@ int main(int argc, char *argv[]) {
   motion.control = parameters::Motion::Control::moment;
   motion.load.value = "0.3*t";
   check_scene("heavy tool with a moment", scene);
-  return testing::exit_code();
 }
+
+} // namespace implicit_tangent_test

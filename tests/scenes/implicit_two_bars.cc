@@ -7,6 +7,8 @@
 
 #include <cstdlib>
 
+namespace implicit_two_bars_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -48,9 +50,9 @@ void test(const unsigned int across) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(implicit_two_bars) {
   test(2);
   test(3);
-  return testing::exit_code();
 }
+
+} // namespace implicit_two_bars_test

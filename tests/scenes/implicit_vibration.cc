@@ -10,6 +10,8 @@
 
 #include <sstream>
 
+namespace implicit_vibration_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -87,8 +89,7 @@ private:
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(implicit_vibration) {
 
   for (const bool is_lumped : {false, true})
     for (const std::string method : {"Newmark", "HHT", "generalised"}) {
@@ -167,5 +168,6 @@ int main(int argc, char *argv[]) {
     check("the lowest mode stays", 1. - low, 0.05);
     check("the highest goes", high, 1e-3);
   }
-  return testing::exit_code();
 }
+
+} // namespace implicit_vibration_test

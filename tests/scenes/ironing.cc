@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace ironing_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -46,8 +48,7 @@ double force_ratio(const double step) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(ironing) {
   const double short_steps = force_ratio(0.02 * size), long_steps = force_ratio(0.6 * size);
   check("ratio of forces, short and long steps", std::abs(long_steps / short_steps - 1.), 1e-3);
 
@@ -74,5 +75,6 @@ int main(int argc, char *argv[]) {
     is_open = is_open && node.status == ContactStatus::open && node.traction.norm() == 0.;
   check("lifted, nothing touches", is_open && run.problem.state().body_pair_loads[0].force.norm() == 0.);
   check("lifted, there is no stress", run.problem.state().energies.elastic / stored, 1e-12);
-  return testing::exit_code();
 }
+
+} // namespace ironing_test

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace iterative_solvers_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -81,8 +83,7 @@ void compare(const std::string &name, const parameters::Scene &scene, const Iter
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(iterative_solvers) {
   std::ostringstream silence;
   std::streambuf *const console = std::cout.rdbuf();
   if (!testing::is_first_rank())
@@ -105,5 +106,6 @@ int main(int argc, char *argv[]) {
   // That tangent converges linearly, over some twenty iterations a step: round-off tells which is the last.
   compare("two blocks without friction, CG", blocks, IterativeMethod::conjugate_gradients, 3);
   std::cout.rdbuf(console); // `silence` goes first
-  return billet::testing::exit_code();
 }
+
+} // namespace iterative_solvers_test

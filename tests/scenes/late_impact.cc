@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdlib>
 
+namespace late_impact_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -67,9 +69,9 @@ void test_spin() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(late_impact) {
   test_impact();
   test_spin();
-  return testing::exit_code();
 }
+
+} // namespace late_impact_test

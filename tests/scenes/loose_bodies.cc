@@ -8,6 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace loose_bodies_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::ImplicitSolutionRun;
@@ -34,8 +36,7 @@ void set_way(parameters::Scene &scene, const std::string &way) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(loose_bodies) {
   const bool is_first = billet::testing::is_first_rank();
   const auto check_here = [&](const std::string &name, const auto... values) {
     if (is_first)
@@ -162,5 +163,6 @@ int main(int argc, char *argv[]) {
         "loose bodies", scene, {0.24, middle},
         [](ImplicitSolutionRun &run, const double until, auto &history) { run.run(until, history); }, 1e-5);
   }
-  return is_first ? billet::testing::exit_code() : 0;
 }
+
+} // namespace loose_bodies_test

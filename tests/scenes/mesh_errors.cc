@@ -14,6 +14,8 @@
 
 #include <fstream>
 
+namespace mesh_errors_test {
+
 using namespace billet;
 using billet::testing::SceneRun;
 
@@ -80,8 +82,7 @@ void check(const std::string &name, const double error, const double tolerance) 
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(mesh_errors) {
   const std::string weight = "    subsection Loads\n      subsection weight\n        set Type = body force\n"
                              "        set Body force = 1e-6*t ; 0 ; 0\n      end\n    end\n",
                     pull = "    subsection Supports\n      subsection end\n        set Boundary ids = 1\n"
@@ -122,5 +123,6 @@ int main(int argc, char *argv[]) {
     check("a polygon of angle " + std::to_string(angle),
           std::abs(geometry_error_of(n_refinements) / lacking - 1.), 0.1 * angle * angle);
   }
-  return dealii::Utilities::MPI::max(testing::exit_code(), MPI_COMM_WORLD);
 }
+
+} // namespace mesh_errors_test

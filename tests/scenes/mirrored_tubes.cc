@@ -11,6 +11,8 @@
 #include <cmath>
 #include <map>
 
+namespace mirrored_tubes_test {
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -102,10 +104,10 @@ void check_overlap() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(mirrored_tubes) {
   const double outside = run({1}, "outside"), all = run({1, 2, 3}, "with ends");
   check("ends change nothing that one sees", std::abs(all - outside), 1e-3);
   check_overlap();
-  return exit_code();
 }
+
+} // namespace mirrored_tubes_test

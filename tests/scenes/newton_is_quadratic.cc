@@ -8,6 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace newton_is_quadratic_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -51,8 +53,7 @@ void test_squares(const std::string &name, const BrickElement element, const std
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(newton_is_quadratic) {
   parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
   parameters.solver.force_tolerance = 1e-11;
   testing::set_fixed_steps(parameters, 20);
@@ -84,5 +85,6 @@ int main(int argc, char *argv[]) {
   test_squares("assumed strain, hypoelastic", Element::assumed_strain, "hypoelastic");
   test_squares("one point, Hencky", Element::one_point, "Hencky");
   test_squares("one point, hypoelastic", Element::one_point, "hypoelastic");
-  return billet::testing::exit_code();
 }
+
+} // namespace newton_is_quadratic_test

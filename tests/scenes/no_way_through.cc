@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace no_way_through_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::near;
@@ -30,8 +32,7 @@ double lowest(const SceneRun &run, const std::size_t body) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(no_way_through) {
   {
     SceneRun run(read("strip_on_rolls.prm"));
     run.finish();
@@ -59,5 +60,6 @@ int main(int argc, char *argv[]) {
     run.finish(); // as with a 'Penetration tolerance' of 1e-5
     check("moment of a tool that turns", near(run.load(0).moment[2], 2667.3, 1e-3));
   }
-  return testing::exit_code();
 }
+
+} // namespace no_way_through_test

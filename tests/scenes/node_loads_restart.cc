@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace node_loads_restart_test {
+
 using namespace billet;
 
 namespace {
@@ -37,8 +39,7 @@ parameters::Scene make_scene(const parameters::TimeStepping::Scheme scheme) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(node_loads_restart) {
   using Scheme = parameters::TimeStepping::Scheme;
   const std::vector<double> stops{0.3, 0.5, 0.6, 0.9, 1.};
   for (const auto &[name, scheme] : std::initializer_list<std::pair<std::string, Scheme>>{
@@ -49,5 +50,6 @@ int main(int argc, char *argv[]) {
   testing::test_going_on<testing::ExplicitStops>(
       "Explicit", make_scene(Scheme::explicit_dynamics), stops,
       [](auto &run, const double time, testing::History &history) { run.run(time, 1, history); });
-  return testing::exit_code();
 }
+
+} // namespace node_loads_restart_test

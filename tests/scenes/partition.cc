@@ -8,6 +8,8 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/sparsity_pattern.h>
 
+namespace partition_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -39,8 +41,7 @@ double crossing_part(const Scene &scene, const unsigned int n_ranks, const bool 
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(partition) {
   for (const std::string name :
        {"ironing", "press_fit", "billet_deformable_dies", "hertz_cylinders", "twisted_hemisphere"}) {
     const Scene scene(testing::read_shipped_scene(name + ".prm"));
@@ -52,5 +53,6 @@ int main(int argc, char *argv[]) {
       check(here + ": many, if METIS did not know", with_contact <= 0.4 * without);
     }
   }
-  return testing::exit_code();
 }
+
+} // namespace partition_test

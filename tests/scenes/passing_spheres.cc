@@ -6,12 +6,13 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace passing_spheres_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(passing_spheres) {
   for (const double friction : {0., 0.3}) {
     const std::string name = friction == 0. ? "frictionless: " : "friction: ";
     auto scene = testing::read_shipped_scene("passing_spheres.prm");
@@ -48,5 +49,6 @@ int main(int argc, char *argv[]) {
       is_open = is_open && node.status == ContactStatus::open && node.traction.norm() == 0.;
     check(name + "open at the end", is_open);
   }
-  return testing::exit_code();
 }
+
+} // namespace passing_spheres_test

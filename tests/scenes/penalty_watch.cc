@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <string>
 
+namespace penalty_watch_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -53,8 +55,7 @@ std::array<unsigned int, 3> count(const std::string &scene, const double factor,
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(penalty_watch) {
   using Counts = std::array<unsigned int, 3>;
   for (const std::string scene : {"billet_upsetting.prm", "patch_test.prm"}) {
     check(scene + ": nothing is said of the usual", count(scene, 10.) == Counts{});
@@ -62,5 +63,6 @@ int main(int argc, char *argv[]) {
     check(scene + ": too stiff", count(scene, 1e6, 1., 1e-11)[1] >= 1);
   }
   check("a body a million million times as stiff", count("patch_test.prm", 10., 1e13)[2] == 1);
-  return testing::exit_code();
 }
+
+} // namespace penalty_watch_test

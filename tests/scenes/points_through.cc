@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace points_through_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -108,8 +110,7 @@ void test_transfer(const unsigned int from, const unsigned int to, const std::st
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(points_through) {
   test_springback();
   parameters::Scene scene = read(5);
   testing::test_going_on<testing::ImplicitSolutionRun>(
@@ -123,5 +124,6 @@ int main(int argc, char *argv[]) {
   test_transfer(2, 7, "1");
   test_transfer(3, 5, "1");
   test_transfer(5, 5, "-1");
-  return testing::exit_code();
 }
+
+} // namespace points_through_test

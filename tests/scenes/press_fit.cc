@@ -11,6 +11,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace press_fit_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -159,8 +161,7 @@ void test_ramp() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(press_fit) {
   const Errors springs = run(16, 0.), coarse = run(8, 1e-5), fine = run(16, 1e-5);
   check("pressure, penalty alone", springs.pressure, 0.01);
   check("hoop stress, penalty alone", springs.hoop, 0.01);
@@ -177,6 +178,6 @@ int main(int argc, char *argv[]) {
   rings.finish();
   check("shifted rings whose meshes do not fit: no force",
         rings.problem.state().body_pair_loads[0].force.norm() / (p * b), 1e-7);
-
-  return testing::exit_code();
 }
+
+} // namespace press_fit_test

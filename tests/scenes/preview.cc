@@ -13,6 +13,8 @@
 #include <fstream>
 #include <iterator>
 
+namespace preview_test {
+
 using namespace billet;
 using billet::testing::SceneRun;
 using dealii::Tensor;
@@ -225,8 +227,7 @@ void check_files(const SceneRun &run) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(preview) {
   const std::string file = "previewed.prm";
   if (testing::is_first_rank())
     std::ofstream(file) << text;
@@ -238,5 +239,6 @@ int main(int argc, char *argv[]) {
   check_loads(run);
   check_arrow();
   check_files(run);
-  return testing::exit_code();
 }
+
+} // namespace preview_test

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+namespace probe_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::near;
@@ -149,8 +151,7 @@ void check_force() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(probe) {
   parameters::Scene billet = testing::read_shipped_scene("billet_upsetting.prm");
   check_scene("billet", billet, 20);
   billet.pairs[0].penetration_tolerance = 1e-5;
@@ -161,5 +162,6 @@ int main(int argc, char *argv[]) {
   check_scene("ironing", ironing, 70);
   check_stop();
   check_force();
-  return billet::testing::exit_code();
 }
+
+} // namespace probe_test

@@ -9,6 +9,8 @@
 
 #include <map>
 
+namespace probes_bending_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -113,8 +115,7 @@ void press_pipe() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(probes_bending) {
   for (const unsigned int n : all_points_through)
     for (const std::string axis : {"1", "-1"})
       if (n > 2 || axis == "1")
@@ -124,5 +125,6 @@ int main(int argc, char *argv[]) {
       bend_plastic(n, multiple);
   bend_cantilever();
   press_pipe();
-  return testing::exit_code();
 }
+
+} // namespace probes_bending_test

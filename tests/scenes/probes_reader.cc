@@ -8,6 +8,8 @@
 
 #include <map>
 
+namespace probes_reader_test {
+
 using namespace billet;
 using billet::testing::check;
 using dealii::Tensor;
@@ -154,8 +156,7 @@ std::string refusal(parameters::Scene parameters, const std::string &name, const
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(probes_reader) {
   if (!testing::is_first_rank())
     std::cout.setstate(std::ios::failbit); // one rank speaks
   const parameters::Scene parameters = testing::read_test_scene("probes_sheet.prm");
@@ -179,5 +180,6 @@ int main(int argc, char *argv[]) {
   check("a point far from the faces is refused",
         refusal(parameters, "caliper", Probe{ProbedThickness{dealii::Point<3>(0., 0., 9.)}})
                 .find("from the faces of 'Boundary ids'") != std::string::npos);
-  return testing::exit_code();
 }
+
+} // namespace probes_reader_test

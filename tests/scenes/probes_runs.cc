@@ -9,6 +9,8 @@
 #include <map>
 #include <sstream>
 
+namespace probes_runs_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::WorstError;
@@ -160,10 +162,10 @@ void press_cube() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(probes_runs) {
   pull_bar();
   fly();
   press_cube();
-  return testing::exit_code();
 }
+
+} // namespace probes_runs_test

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace quiet_start_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -35,8 +37,7 @@ Outcome run(const double max_drift) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(quiet_start) {
   for (const double max_drift : {0.05, 1e-3}) {
     const Outcome outcome = run(max_drift);
     const std::string allowed = max_drift > 0.01 ? "5 % allowed: " : "0.1 % allowed: ";
@@ -44,5 +45,6 @@ int main(int argc, char *argv[]) {
     check(allowed + "drift when it moves", outcome.drift, 1e-4);
     check(allowed + "the smallest energy is round-off", outcome.energy_at_rest, 1e-12 * outcome.energy);
   }
-  return testing::exit_code();
 }
+
+} // namespace quiet_start_test

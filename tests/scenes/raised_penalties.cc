@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+namespace raised_penalties_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -37,8 +39,7 @@ Result press(const std::function<void(parameters::ContactPair &)> &change) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(raised_penalties) {
   // Uniaxial strain in Hencky's law: τ = (κ + 4/3 G) ln λ, and the force is τ A_0/λ.
   constexpr double E = 200e3, nu = 0.3, area = 2.25, stretch = 0.998;
   const double modulus = E * (1. - nu) / ((1. + nu) * (1. - 2. * nu)),
@@ -57,5 +58,6 @@ int main(int argc, char *argv[]) {
   check("in few steps", raised.n_steps <= 3 * soft.n_steps);
   check("energy", raised.drift, 1e-3);
   check("of which raises take little", raised.numerical, 5e-3);
-  return testing::exit_code();
 }
+
+} // namespace raised_penalties_test

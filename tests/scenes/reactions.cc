@@ -3,6 +3,8 @@
 // and inertia is that of the free residuals, whatever constrains a node.
 #include "implicit_run.h"
 
+namespace reactions_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -122,8 +124,7 @@ void balance(const std::string &name, const std::function<void(parameters::Scene
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(reactions) {
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
     std::cout.setstate(std::ios::failbit);
   press_cube();
@@ -138,5 +139,6 @@ int main(int argc, char *argv[]) {
     testing::set_hht(scene, -0.2);
     scene.bodies[0].initial_velocity.value[0] = "0.01*x";
   });
-  return testing::exit_code();
 }
+
+} // namespace reactions_test

@@ -9,12 +9,13 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace restart_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::History;
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(restart) {
   {
     parameters::Scene scene = testing::read_test_scene("restart_press.prm");
     // What Newton's method leaves, and how many iterations it takes, depends on round-off, and so on the
@@ -93,5 +94,6 @@ int main(int argc, char *argv[]) {
     if (testing::is_first_rank())
       check("Ring touches itself", area > 0.);
   }
-  return testing::exit_code();
 }
+
+} // namespace restart_test

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace restart_contact_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::History;
@@ -33,8 +35,7 @@ void test_blocks(const std::string &name, const parameters::Scene &scene) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(restart_contact) {
   parameters::Scene blocks = testing::read_test_scene("restart_blocks.prm");
   blocks.solver.force_tolerance = 1e-11;
   test_blocks("Blocks", blocks);
@@ -50,5 +51,6 @@ int main(int argc, char *argv[]) {
   drop.implicit_dynamics.error_tolerance = 0.;
   testing::test_going_on<testing::ImplicitSolutionRun>("Drop in fixed steps", drop, {0.11e-3, 0.31e-3},
                                                        until_then);
-  return testing::exit_code();
 }
+
+} // namespace restart_contact_test

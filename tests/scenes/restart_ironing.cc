@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace restart_ironing_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::History;
@@ -54,8 +56,7 @@ void test(const std::string &name, parameters::Scene scene) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(restart_ironing) {
   if (testing::n_ranks() == 1) // with iterations, on which steps and the tolerance depend, as they come
     testing::test_going_on<testing::ImplicitSolutionRun>("Steps as they come", read_scene(), {0.5, 1.3, 1.7},
                                                          until_then);
@@ -67,5 +68,6 @@ int main(int argc, char *argv[]) {
   nodes.time_stepping.end_time = 1.5;
   nodes.time_stepping.stops = {1.};
   test("Planed, two passes", nodes);
-  return testing::exit_code();
 }
+
+} // namespace restart_ironing_test

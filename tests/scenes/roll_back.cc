@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace roll_back_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -25,8 +27,7 @@ bool same_bits(SceneRun &a, SceneRun &b) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(roll_back) {
   parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
   testing::set_fixed_steps(parameters, 20);
   parameters.solver.max_iterations = 8;
@@ -49,5 +50,6 @@ int main(int argc, char *argv[]) {
   check("some because a correction would turn it", correction);
   check("some because of too many iterations", iterations);
   check("the short ones have the same bits as without them", same);
-  return billet::testing::exit_code();
 }
+
+} // namespace roll_back_test

@@ -11,6 +11,8 @@
 
 #include <fstream>
 
+namespace rotated_supports_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -75,8 +77,7 @@ void check_twisted_shaft() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(rotated_supports) {
   parameters::Scene upright = testing::read_shipped_scene("billet_upsetting.prm");
   upright.time_stepping.end_time = 0.3;
   parameters::Scene turned = upright;
@@ -124,5 +125,6 @@ int main(int argc, char *argv[]) {
   }
   check("contradicting supports are refused", refused);
   check_twisted_shaft();
-  return billet::testing::exit_code();
 }
+
+} // namespace rotated_supports_test

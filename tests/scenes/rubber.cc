@@ -10,6 +10,8 @@
 #include <fstream>
 #include <map>
 
+namespace rubber_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -327,8 +329,7 @@ void test_pressed_cylinder() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(rubber) {
   test_modes();
   test_shear();
   test_dynamics();
@@ -339,5 +340,6 @@ int main(int argc, char *argv[]) {
     test_sphere(element);
   }
   test_pressed_cylinder();
-  return testing::exit_code();
 }
+
+} // namespace rubber_test

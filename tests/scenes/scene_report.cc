@@ -6,6 +6,8 @@
 
 #include "restart_run.h"
 
+namespace scene_report_test {
+
 using namespace billet;
 using billet::testing::check;
 using dealii::Tensor;
@@ -195,8 +197,7 @@ void check_wedge(const MPI_Comm communicator) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(scene_report) {
   if (!testing::is_first_rank())
     std::cout.setstate(std::ios::failbit); // one rank speaks
   const Scene scene(testing::read_test_scene("scene_report.prm"));
@@ -214,5 +215,6 @@ int main(int argc, char *argv[]) {
       const SceneReport other = make_report<ExplicitDynamics>(scene, some);
       check("alike on " + std::to_string(n), difference(numbers_of(report), numbers_of(other)), tolerance);
     });
-  return testing::exit_code();
 }
+
+} // namespace scene_report_test

@@ -72,6 +72,10 @@ inline parameters::Scene read_shipped_scene(const std::string &name) {
   return parameters::Scene::read(std::string(SOURCE_DIR) + "/../../prm/" + name);
 }
 
+inline parameters::Scene read_test_scene(const std::string &name) {
+  return parameters::Scene::read(std::string(SOURCE_DIR) + "/" + name);
+}
+
 /// An infinite plane as the surface of a tool.
 inline std::shared_ptr<const RigidSurface> make_plane(const dealii::Tensor<1, 3> &point,
                                                       const dealii::Tensor<1, 3> &normal) {

@@ -15,6 +15,8 @@
 #include <fstream>
 #include <map>
 
+namespace sections_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -255,8 +257,7 @@ void check_refusal(const std::string &name, const std::string &mesh, const std::
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(sections) {
   check_ring("ring", ring, "0");
   check_ring("ring from a file", write_ring(), "inside");
   check_disc();
@@ -294,5 +295,6 @@ int main(int argc, char *argv[]) {
   check_refusal("a section across the axis is refused",
                 "      set Arguments = 4, 2 : -1, 0 : 20, 4 : true\n      set Section = axisymmetric\n",
                 "begins at the radius x = -1; allowed are sections with x >= 0");
-  return testing::exit_code();
 }
+
+} // namespace sections_test

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <fstream>
 
+namespace selected_nodes_test {
+
 using namespace billet;
 using billet::testing::SceneRun;
 
@@ -159,11 +161,11 @@ void check_springs() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(selected_nodes) {
   check_three_points();
   check_sets();
   check_shaft();
   check_springs();
-  return testing::exit_code();
 }
+
+} // namespace selected_nodes_test

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace soft_augmentation_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -46,8 +48,7 @@ std::string fail(const double tolerance, const unsigned int maximum) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(soft_augmentation) {
   for (const std::string scene : {"billet_upsetting.prm", "patch_test.prm"}) {
     const Outcome usual = press(scene, 10., 1e-4);
     for (const double factor : {1e-3, 0.1, 1e7}) {
@@ -64,5 +65,6 @@ int main(int argc, char *argv[]) {
                                                hopeless.find("At the present rate") != std::string::npos);
   check("with numbers that are some", hopeless.find("inf") == std::string::npos);
   check("and not after all augmentations", hopeless.find("after 1000") == std::string::npos);
-  return testing::exit_code();
 }
+
+} // namespace soft_augmentation_test

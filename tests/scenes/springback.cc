@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace springback_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -144,8 +146,7 @@ void test(const std::string &name, const parameters::Scene &bending, const doubl
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(springback) {
   const parameters::Scene bending = testing::read_test_scene("springback.prm");
   double reference = 0.;
   {
@@ -170,5 +171,6 @@ int main(int argc, char *argv[]) {
   parameters::Scene scene = bending;
   scene.bodies[0].element.value.type = BrickElement::one_point;
   test("One point", scene, reference, true);
-  return testing::exit_code();
 }
+
+} // namespace springback_test

@@ -9,6 +9,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace stability_watch_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -45,8 +47,7 @@ bool contains(const std::string &text, const std::string &what) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(stability_watch) {
   if (!testing::is_first_rank())
     std::cout.setstate(std::ios::failbit);
   check("Hencky's law at ln -1.5", inspect(-1.5, "Hencky").empty());
@@ -64,5 +65,6 @@ int main(int argc, char *argv[]) {
         inspect(-0.7, "hypoelastic").empty() &&
             contains(inspect(-0.8, "hypoelastic"), "Elasticity = Hencky"));
   check("a body that yields", inspect(-2., "Hencky", false).empty());
-  return testing::exit_code();
 }
+
+} // namespace stability_watch_test

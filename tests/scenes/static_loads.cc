@@ -10,6 +10,8 @@
 
 #include <fstream>
 
+namespace static_loads_test {
+
 using namespace billet;
 using billet::testing::SceneRun;
 
@@ -378,8 +380,7 @@ void check_refused() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(static_loads) {
   check_weight("gravity", "      set Density = 1e-3\n",
                "        set Type = acceleration\n        set Acceleration = 0 ; 0 ; -10*t\n");
   check_weight("body force", "", "        set Type = body force\n        set Body force = 0 ; 0 ; -0.01*t\n");
@@ -422,5 +423,6 @@ int main(int argc, char *argv[]) {
                 1e-2);
   check_times();
   check_refused();
-  return testing::exit_code();
 }
+
+} // namespace static_loads_test

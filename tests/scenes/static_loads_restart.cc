@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace static_loads_restart_test {
+
 using namespace billet;
 
 namespace {
@@ -36,10 +38,10 @@ parameters::Scene make_scene() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(static_loads_restart) {
   testing::test_going_on<testing::ImplicitSolutionRun>(
       "Loads", make_scene(), {0.5, 0.9},
       [](auto &run, const double time, testing::History &history) { run.run(time, history); });
-  return testing::exit_code();
 }
+
+} // namespace static_loads_restart_test

@@ -4,6 +4,8 @@
 
 #include "../testing.h"
 
+namespace step_control_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::WorstError;
@@ -56,7 +58,7 @@ void check_rules() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(step_control) {
   check_rules();
   {
     auto p = make_parameters(false);
@@ -132,5 +134,6 @@ int main() {
     check(std::string(automatic ? "automatic" : "fixed") + " steps: none of the length of round-off",
           stopped && minimum > 0.28 && control.n_steps() == 200);
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace step_control_test

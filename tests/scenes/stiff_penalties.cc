@@ -8,6 +8,8 @@
 
 #include <map>
 
+namespace stiff_penalties_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -51,8 +53,7 @@ double difference(const dealii::Tensor<1, 3> &a, const dealii::Tensor<1, 3> &b) 
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(stiff_penalties) {
   const Drawn usual = draw(10., 10.), sticky = draw(10., 1e5), stiff = draw(1e5, 1e5), less = draw(1e3, 1e3);
   check("the usual penalty needs no other ones", usual.n_reported == 0 && less.n_reported == 0);
   check("the stiff one does, which is reported", stiff.n_reported >= 1);
@@ -85,5 +86,6 @@ int main(int argc, char *argv[]) {
                    as_given.problem.state().body_pair_loads[0].force),
         0.01);
   check("it can be taken once", !rescued.problem.equation().parts().tangent().take_exact());
-  return billet::testing::exit_code();
 }
+
+} // namespace stiff_penalties_test

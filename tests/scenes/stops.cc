@@ -11,6 +11,8 @@
 
 #include <cmath>
 
+namespace stops_test {
+
 using namespace billet;
 using billet::testing::check;
 using Times = std::vector<double>;
@@ -115,10 +117,10 @@ void check_free_directions() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(stops) {
   check_corners();
   check_stops();
   check_free_directions();
-  return billet::testing::exit_code();
 }
+
+} // namespace stops_test

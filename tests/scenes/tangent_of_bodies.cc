@@ -5,14 +5,15 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace tangent_of_bodies_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::is_first_rank;
 using billet::testing::SceneRun;
 using billet::testing::tangent_error;
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(tangent_of_bodies) {
   using Facets = FacetMethod;
   for (const auto &[facets, name] : {std::pair<Facets, std::string>{Facets::planed, "planed"},
                                      {Facets::bilinear, "bilinear"},
@@ -35,5 +36,6 @@ int main(int argc, char *argv[]) {
         check(name + (friction > 0. ? ", friction" : ", no friction") + ": nodes touch", n_touch > 5);
       }
     }
-  return is_first_rank() ? testing::exit_code() : 0;
 }
+
+} // namespace tangent_of_bodies_test

@@ -11,6 +11,8 @@
 
 #include <fstream>
 
+namespace tangent_of_scene_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::make_curved;
@@ -163,8 +165,7 @@ void check_friction_laws() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(tangent_of_scene) {
 
   // Slipping billet, some nodes of the mantle in contact.
   parameters::Scene billet = testing::read_shipped_scene("billet_upsetting.prm");
@@ -184,5 +185,6 @@ int main(int argc, char *argv[]) {
   check_curved();
   check_edge();
   check_friction_laws();
-  return billet::testing::exit_code();
 }
+
+} // namespace tangent_of_scene_test

@@ -21,6 +21,8 @@
 #include <gp_Ax2.hxx>
 #include <gp_Pln.hxx>
 
+namespace tangent_on_cad_test {
+
 using namespace billet;
 
 namespace {
@@ -45,8 +47,7 @@ void check(const std::string &name, const TopoDS_Shape &shape) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(tangent_on_cad) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
 
   check("plane",
@@ -62,5 +63,6 @@ int main(int argc, char *argv[]) {
   check("torus", torus);
   check("torus as a spline", BRepBuilderAPI_NurbsConvert(torus).Shape());
   check("free-form face", dome());
-  return testing::exit_code();
 }
+
+} // namespace tangent_on_cad_test

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <fstream>
 
+namespace timed_supports_test {
+
 using namespace billet;
 using billet::testing::SceneRun;
 
@@ -200,8 +202,7 @@ void check_refusal() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(timed_supports) {
   check_release();
   check_constraint();
   check_motion();
@@ -215,5 +216,6 @@ int main(int argc, char *argv[]) {
            growing_force),
       {0.3, 0.6, 0.9},
       [](auto &run, const double time, testing::History &history) { run.run(time, history); });
-  return testing::exit_code();
 }
+
+} // namespace timed_supports_test

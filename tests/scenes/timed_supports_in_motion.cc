@@ -12,6 +12,8 @@
 #include <cmath>
 #include <fstream>
 
+namespace timed_supports_in_motion_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -139,8 +141,7 @@ void check_motion(const std::string &name, const std::string &scheme, const Move
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(timed_supports_in_motion) {
   check_motion("Explicit", "explicit", move_explicitly);
   check_motion("Implicit", "implicit dynamics", move_implicitly);
 
@@ -154,5 +155,6 @@ int main(int argc, char *argv[]) {
   testing::test_going_on<testing::ImplicitSolutionRun>(
       "Implicit", scene, stops,
       [](auto &run, const double time, testing::History &history) { run.run(time, history); });
-  return testing::exit_code();
 }
+
+} // namespace timed_supports_in_motion_test

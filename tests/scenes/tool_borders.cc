@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace tool_borders_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::make_curved;
@@ -54,8 +56,7 @@ void check_edge(const std::string &name, const testing::SurfacePart &small,
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(tool_borders) {
   const std::string flat = "set Centre = 0.5, 0.5, 0\n",
                     round = "set Centre = 0.5, 0.5, -4.955\nset Radius = 5\n";
   check_edge("rectangle", {"rectangle", flat + "set Length = 0.994\nset Width = 0.994"},
@@ -63,5 +64,6 @@ int main(int argc, char *argv[]) {
   check_edge("disc", {"disc", flat + "set Radius = 0.703"}, {"disc", flat + "set Radius = 0.72"});
   check_edge("zone of a sphere", {"sphere", round + "set From latitude = 81.92"},
              {"sphere", round + "set From latitude = 81.82"});
-  return billet::testing::exit_code();
 }
+
+} // namespace tool_borders_test

@@ -11,6 +11,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace tool_contact_test {
+
 using namespace billet;
 using billet::testing::check;
 using dealii::FullMatrix;
@@ -301,8 +303,7 @@ void check_edge() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(tool_contact) {
   for (const auto &[of_scheme, scheme] : {std::pair<std::string, Scheme>{"statics", Scheme::quasi_static},
                                           {"implicit dynamics", Scheme::implicit_dynamics},
                                           {"explicit dynamics", Scheme::explicit_dynamics}})
@@ -317,5 +318,6 @@ int main(int argc, char *argv[]) {
   check_sliding();
   check_penalties();
   check_edge();
-  return testing::exit_code();
 }
+
+} // namespace tool_contact_test

@@ -8,6 +8,8 @@
 
 #include <map>
 
+namespace turned_blocks_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -83,10 +85,10 @@ void test(const std::string &name, const Facets facets, const Passes passes) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(turned_blocks) {
   test("overlap", Facets::overlap, Passes::one);
   test("planed, one pass", Facets::planed, Passes::one);
   test("planed, two passes", Facets::planed, Passes::two);
-  return testing::exit_code();
 }
+
+} // namespace turned_blocks_test

@@ -8,12 +8,13 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace twisted_hemisphere_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(twisted_hemisphere) {
   auto scene = testing::read_shipped_scene("twisted_hemisphere.prm");
   scene.bodies[0].mesh.arguments = "10, 10, 4 : -1, -1, -1 : 1, 1, 0 : true";
   scene.bodies[1].mesh.arguments = "9, 9, 4 : -1, -1, 0 : 1, 1, 1 : true";
@@ -85,5 +86,6 @@ int main(int argc, char *argv[]) {
     is_open = is_open && node.status == ContactStatus::open && node.traction.norm() == 0.;
   check("open at the end", is_open);
   check("elastic energy at the end", state.energies.elastic / state.energies.external, 1e-12);
-  return testing::exit_code();
 }
+
+} // namespace twisted_hemisphere_test

@@ -8,6 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace unbalanced_section_test {
+
 using namespace billet;
 using billet::testing::check;
 using dealii::Tensor;
@@ -43,8 +45,7 @@ bool contains(const std::string &text, const std::string &what) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(unbalanced_section) {
   const Scene scene(parameters::Scene::read(std::string(SOURCE_DIR) + "/../cli/doubtful/axial.prm"));
   const Tensor<1, 3> along({0., 0., 1.}), across({1., 0., 0.});
   check("the whole circle is 72 wedges", std::abs(scene.whole_section().factor - 72.09) < 0.01);
@@ -58,5 +59,6 @@ int main(int argc, char *argv[]) {
   check("across it: the wedge",
         contains(radial, "leave up to 0.05 along x out of balance, 5 % of the largest force") &&
             contains(radial, "(forces of the wedge)"));
-  return testing::exit_code();
 }
+
+} // namespace unbalanced_section_test

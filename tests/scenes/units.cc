@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace units_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -28,8 +30,7 @@ Result run(const parameters::Scene &parameters) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(units) {
   for (const bool absolute : {true, false}) {
     parameters::Scene in_mm = testing::read_shipped_scene("billet_upsetting.prm");
     if (!absolute) {
@@ -59,5 +60,6 @@ int main(int argc, char *argv[]) {
       error.add(std::abs(mm.forces[i] / m.forces[i] - 1.));
     check(name + ": same forces", error.value(), 1e-8);
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace units_test

@@ -8,6 +8,8 @@
 
 #include <fstream>
 
+namespace volumes_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -70,8 +72,7 @@ double press(const std::string &lower, const std::string &upper, const std::stri
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(volumes) {
   write_mesh("column.inp");
   const std::string
       file = "   set Source = file\n   set File = column.inp\n   set Boundary ids = floor : z < 1e-9 "
@@ -85,5 +86,6 @@ int main(int argc, char *argv[]) {
                                 "  set Boundary ids = joint\n  set Second boundary ids = joint\n");
   check("the same force", std::abs(of_file / of_boxes - 1.), 1e-8);
   check("that of two materials in a row", std::abs(of_file / (0.02 / (1. / 1000. + 1. / 500.)) - 1.), 0.1);
-  return billet::testing::exit_code();
 }
+
+} // namespace volumes_test

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace wagoner_punch_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -77,8 +79,7 @@ Result press(const parameters::ContactTangent tangent, const double tolerance) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(wagoner_punch) {
   using parameters::ContactTangent;
   const Result exact = press(ContactTangent::exact, 1e-6),
                consistent = press(ContactTangent::consistent, 1e-6),
@@ -96,5 +97,6 @@ int main(int argc, char *argv[]) {
   check("energies add up", exact.drift, 0.01);
   check("iterations a step", exact.iterations_per_step < 8. && consistent.iterations_per_step < 8.);
   check("exact tangent: median order of the residual's fall is near 2", exact.order > 1.6);
-  return billet::testing::exit_code();
 }
+
+} // namespace wagoner_punch_test

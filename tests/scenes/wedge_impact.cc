@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace wedge_impact_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -51,8 +53,7 @@ Outcome run(const FacetMethod facets, const parameters::ContactPair::Passes pass
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(wedge_impact) {
   using Passes = parameters::ContactPair::Passes;
   const Outcome two = run(FacetMethod::planed, Passes::two), one = run(FacetMethod::planed, Passes::one);
   for (const auto &[name, outcome] :
@@ -63,5 +64,6 @@ int main(int argc, char *argv[]) {
     check(name + ": energies balance", outcome.drift, 1e-3);
   }
   check("largest forces of both", std::abs(two.force / one.force - 1.), 0.05);
-  return billet::testing::exit_code();
 }
+
+} // namespace wedge_impact_test

@@ -14,6 +14,8 @@
 #include <filesystem>
 #include <map>
 
+namespace written_fields_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -35,8 +37,7 @@ std::vector<Tensor<1, 3>> read_vector(testing::SnapshotFile &file, const std::st
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(written_fields) {
   if (!testing::is_first_rank())
     std::cout.setstate(std::ios::failbit); // one rank speaks
   auto parameters = parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
@@ -120,5 +121,6 @@ int main(int argc, char *argv[]) {
   check("lower elements", n_lower == 4);
   check("stress: carries the normal force", std::abs(-normal * area / force[2] - 1.), 0.02);
   check("stress: carries the friction", std::abs(-shear * area / force[0] - 1.), 0.02);
-  return billet::testing::exit_code();
 }
+
+} // namespace written_fields_test

@@ -12,6 +12,8 @@
 #include <memory>
 #include <optional>
 
+namespace augmentation_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::near;
@@ -211,8 +213,7 @@ DiagnosticList finish(const double change) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(augmentation) {
   check_pace();
   check_softness();
   check_confined();
@@ -220,5 +221,6 @@ int main(int argc, char *argv[]) {
   check_accuracy();
   check("a warning is printed if forces still change by 0.5 %",
         finish(0.0051).size() == 1 && finish(0.0049).empty());
-  return testing::exit_code();
 }
+
+} // namespace augmentation_test

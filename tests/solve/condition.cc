@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace condition_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -44,12 +46,12 @@ unsigned int times_reported(const double soft, const bool symmetric) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(condition) {
   for (const bool symmetric : {true, false}) {
     check("no warning is printed at a condition of 1e10", times_reported(1e-10, symmetric) == 0);
     check("one is printed, once, at 1e13", times_reported(1e-13, symmetric) == 1);
     check("and none at 10 with a stiff spring", times_reported(10., symmetric) == 0);
   }
-  return testing::exit_code();
 }
+
+} // namespace condition_test

@@ -8,6 +8,8 @@
 
 #include <string>
 
+namespace contact_losses_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::near;
@@ -80,8 +82,9 @@ void check_balance() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(contact_losses) {
   check_losses();
   check_balance();
-  return billet::testing::exit_code();
 }
+
+} // namespace contact_losses_test

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+namespace contact_review_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -36,7 +38,7 @@ ForceSpread spread(const std::vector<double> &forces, const double images = 1.) 
 
 } // namespace
 
-int main() {
+BILLET_TEST(contact_review) {
   {
     const auto paths = find_load_paths(5, {{0}, {0, 1}, {2, 2}, {1, 3}});
     check("bodies that touch are a path", paths.size() == 2 && paths[0].bodies.size() == 3 &&
@@ -93,5 +95,6 @@ int main() {
     check("half of the force is on coarse curves", curved.part_on_coarse() == 0.5);
     check("without force none is", ForceSpread().part_on_coarse() == 0.);
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace contact_review_test

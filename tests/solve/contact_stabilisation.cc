@@ -8,6 +8,8 @@
 
 #include <numeric>
 
+namespace contact_stabilisation_test {
+
 using namespace billet;
 using billet::testing::check;
 using Values = std::vector<double>;
@@ -95,8 +97,7 @@ void check_messages() {
 
 } // namespace
 
-int main(int argc, char **argv) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(contact_stabilisation) {
   billet::testing::Random random;
   Values u, u_n;
   for (unsigned int i = 0; i < 12; ++i) {
@@ -251,5 +252,6 @@ int main(int argc, char **argv) {
     check("else something else moves the body", drift(1.3 * x) == 0.25 * x && drift(-x) == 0.25 * x);
   }
   check_messages();
-  return billet::testing::exit_code();
 }
+
+} // namespace contact_stabilisation_test

@@ -9,6 +9,8 @@
 
 #include <functional>
 
+namespace convergence_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::near;
@@ -149,8 +151,7 @@ void check_stalls() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(convergence) {
 
   check_round_off();
   check_stalls();
@@ -281,5 +282,6 @@ int main(int argc, char *argv[]) {
     check("where all let go it is all", release.part() == 1.);
     check("without contact nothing", StatusChanges().part() == 0.);
   }
-  return testing::exit_code();
 }
+
+} // namespace convergence_test

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+namespace cycling_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -21,7 +23,7 @@ bool cycles_with(const std::function<double(int)> &residual, const int n = 20) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(cycling) {
   check("two states alternate", cycles_with([](const int i) { return i % 2 == 0 ? 1e-5 : 1e-3; }));
   check("nearly the same ones",
         cycles_with([](const int i) { return (i % 2 == 0 ? 1e-5 : 1e-3) * (1. + 0.005 * std::sin(i)); }));
@@ -44,5 +46,6 @@ int main() {
   };
   check("alternating ones differ by a fifth", differ(0.202) && !differ(0.198));
   check("without order", !cycles_with([](const int i) { return 1.5 + std::sin(i * i); }));
-  return testing::exit_code();
 }
+
+} // namespace cycling_test

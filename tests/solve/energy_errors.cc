@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+namespace energy_errors_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::near;
@@ -84,7 +86,7 @@ void check_step_factor() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(energy_errors) {
   const EnergyErrors at_rest = watch(0.);
   check("a hundredth in half of the time", near(at_rest.steps(), 0.005, 0.011));
   for (const double w : {1., 1e3})
@@ -109,5 +111,6 @@ int main() {
         carried_energy({{false, false, false}}, dealii::Tensor<1, 3>({1., 1., 1.}), 1.), 0.);
   check_penetrations();
   check_step_factor();
-  return testing::exit_code();
 }
+
+} // namespace energy_errors_test

@@ -6,11 +6,13 @@
 
 #include <limits>
 
+namespace error_budget_test {
+
 using billet::ErrorBudget;
 using billet::testing::check;
 using billet::testing::near;
 
-int main() {
+BILLET_TEST(error_budget) {
   constexpr double rounding = 1e-14;
   check("of a target of 1 % penetration may cause 0.3 % beside steps",
         near(ErrorBudget::of_penetration(0.01, true), 3e-3, rounding));
@@ -26,5 +28,6 @@ int main() {
   check("nor if a length is unknown", !ErrorBudget::are_equal(2., std::numeric_limits<double>::quiet_NaN()));
   check("2000 remaining steps are expensive, fewer are not",
         ErrorBudget::is_expensive(2000.) && !ErrorBudget::is_expensive(1990.));
-  return billet::testing::exit_code();
 }
+
+} // namespace error_budget_test

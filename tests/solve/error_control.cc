@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+namespace error_control_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::near;
@@ -65,7 +67,7 @@ Result run(const ErrorControl::Tolerances &tolerances, const double slope, const
 
 } // namespace
 
-int main() {
+BILLET_TEST(error_control) {
   const Result even = run({0., 0.}, 0.5, 0.01);
   check("equal steps: the estimate is the error, with caution",
         near(even.estimate.steps, caution * even.error, 1e-3));
@@ -218,5 +220,6 @@ int main() {
         late.knows_penetration() && !late.wants_penetration() && late.allowed_at_first() > 1.);
   ErrorControl hasty({1e-3, 0.}, 1.);
   check("two steps are compared although nothing acts yet", hasty.wants_measurement(0.5));
-  return billet::testing::exit_code();
 }
+
+} // namespace error_control_test

@@ -10,6 +10,8 @@
 
 #include <cmath>
 
+namespace error_parts_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::near;
@@ -186,7 +188,7 @@ void check_steps() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(error_parts) {
   constexpr double tolerance = 1e-14;
   {
     ForceCourse course(2.);
@@ -253,5 +255,6 @@ int main() {
   check_steps();
   check_rates();
   check_fading_errors();
-  return billet::testing::exit_code();
 }
+
+} // namespace error_parts_test

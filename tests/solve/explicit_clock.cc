@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+namespace explicit_clock_test {
+
 using billet::ExplicitClock;
 using billet::testing::check;
 
@@ -87,7 +89,7 @@ void check_limits() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(explicit_clock) {
   constexpr double tolerance = 1e-14;
   {
     ExplicitClock clock("scene.prm");
@@ -144,5 +146,6 @@ int main() {
     clock.begin(1.);
     check("time that would not advance fails", throws(clock, 2., 1e-17));
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace explicit_clock_test

@@ -13,6 +13,8 @@
 #include <fstream>
 #include <string>
 
+namespace implicit_guards_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -187,8 +189,7 @@ void check_sliding() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(implicit_guards) {
   check_cuts();
   check_turns();
   check_motions();
@@ -198,5 +199,6 @@ int main(int argc, char *argv[]) {
   check_round_off(run);
   check_resultants(run);
   check_sliding();
-  return testing::exit_code();
 }
+
+} // namespace implicit_guards_test

@@ -15,6 +15,8 @@
 
 #include <limits>
 
+namespace implicit_limits_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::near;
@@ -306,8 +308,7 @@ void check_motion() {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(implicit_limits) {
   check_first_guess();
   check_round_off();
   check_probe();
@@ -319,5 +320,6 @@ int main(int argc, char *argv[]) {
   check_losses();
   check_dynamic_balance();
   check_motion();
-  return testing::exit_code();
 }
+
+} // namespace implicit_limits_test

@@ -7,6 +7,8 @@
 
 #include "../testing.h"
 
+namespace mesh_change_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::near;
@@ -40,12 +42,13 @@ double release_time(const double given) {
 
 } // namespace
 
-int main() {
+BILLET_TEST(mesh_change) {
   check("contact springs may gain a hundredth of all energy",
         is_refused(0.0102, 0.) && !is_refused(0.0098, 0.) && !is_refused(-0.5, 0.));
   check("the energy may change by all of it",
         is_refused(0., 1.02) && !is_refused(0., 0.98) && is_refused(0., -1.02) && !is_refused(0., -0.98));
   check("unbalanced forces fade over a tenth of the run", near(release_time(0.), 0.8, 1e-12));
   check("unless the scene gives a time", release_time(0.3) == 0.3);
-  return testing::exit_code();
 }
+
+} // namespace mesh_change_test

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+namespace penalty_control_test {
+
 using namespace billet;
 using billet::testing::check;
 
@@ -233,11 +235,12 @@ void check_friction_formula() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(penalty_control) {
   check_raises();
   check_limits();
   check_friction();
   check_formula();
   check_friction_formula();
-  return billet::testing::exit_code();
 }
+
+} // namespace penalty_control_test

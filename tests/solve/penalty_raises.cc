@@ -8,6 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace penalty_raises_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -53,8 +55,7 @@ double first(const Push &by) {
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(penalty_raises) {
   check("penetration above what is allowed raises penalties, by twice the ratio in whole octaves",
         first({0.98}) == 1. && first({1.02}) == 2. && first({1.98}) == 2. && first({2.02}) == 4.);
   check("by a factor of 8 at most", first({3.9}) == 4. && first({4.1}) == 8. && first({8.2}) == 8.);
@@ -69,5 +70,6 @@ int main(int argc, char *argv[]) {
   check("six raises in a step exhaust a default penalty",
         by_default.converged && by_default.factors.size() == 6);
   check("there are no more for a lower one", !of_scene.converged && of_scene.factors.size() == 6);
-  return testing::exit_code();
 }
+
+} // namespace penalty_raises_test

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+namespace penalty_watch_test {
+
 using billet::PenaltyWatch;
 using billet::testing::check;
 
@@ -25,7 +27,7 @@ std::string inspect(PenaltyWatch &watch, const double of_facet, const double dis
 
 } // namespace
 
-int main() {
+BILLET_TEST(penalty_watch) {
   {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
     check("a hundredth of a facet after a motion of one is no matter", inspect(watch, 0.01, 2.).empty());
@@ -100,5 +102,6 @@ int main() {
     const double motion = billet::max_motion(from, to, 10.);
     check("and a turn, which moves no point farther than that", motion > 3.01 && motion < 3.02);
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace penalty_watch_test

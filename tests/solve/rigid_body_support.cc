@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+namespace rigid_body_support_test {
+
 using namespace billet;
 using billet::testing::check;
 using dealii::Tensor;
@@ -41,8 +43,7 @@ RigidBodySupport one_cube(const std::size_t n_tools = 0) {
 
 } // namespace
 
-int main(int argc, char **argv) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(rigid_body_support) {
   { check("nothing touches: six modes", one_cube().find().n_free == 6); }
   {
     RigidBodySupport support = one_cube();
@@ -203,5 +204,6 @@ int main(int argc, char **argv) {
           found.sliding && std::abs(found.sliding->motion.translation * x) > 0.99 &&
               found.sliding->motion.rotation.norm() < 0.01);
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace rigid_body_support_test

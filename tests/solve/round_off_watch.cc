@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+namespace round_off_watch_test {
+
 using billet::RoundOffWatch;
 using billet::testing::check;
 
@@ -21,7 +23,7 @@ bool contains(const billet::DiagnosticList &messages, const billet::DiagnosticKi
 
 } // namespace
 
-int main() {
+BILLET_TEST(round_off_watch) {
   using namespace billet::diagnostic;
   constexpr double tolerance = 5e-3;
   check("nothing without a step", RoundOffWatch().finish(tolerance, false).empty());
@@ -47,5 +49,6 @@ int main() {
   RoundOffWatch fine;
   fine.add(1., 1e-9, 1.);
   check("below 1e-8 it is a note", contains(fine.finish(1e-10, false), balanced_to_round_off, "balance"));
-  return billet::testing::exit_code();
 }
+
+} // namespace round_off_watch_test

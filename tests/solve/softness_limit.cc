@@ -8,6 +8,8 @@
 #include <cmath>
 #include <string>
 
+namespace softness_limit_test {
+
 using billet::ContactSprings;
 using billet::SoftnessLimit;
 using billet::testing::check;
@@ -162,7 +164,7 @@ void check_sheets() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(softness_limit) {
   check_what_is_given_up();
   check_formula();
   check_sheets();
@@ -188,5 +190,6 @@ int main() {
     limit.begin();
     check("a checkpoint has it all", limit.excess({before})[0] == restored.excess({before})[0]);
   }
-  return billet::testing::exit_code();
 }
+
+} // namespace softness_limit_test

@@ -9,6 +9,8 @@
 
 #include <cmath>
 
+namespace stable_step_test {
+
 using billet::CrossingLimit;
 using billet::StableStep;
 using billet::StepBounds;
@@ -25,8 +27,7 @@ double stable_step(const StepBounds &bounds, const double of_tools = 0.) {
 
 } // namespace
 
-int main(int argc, char **argv) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(stable_step) {
   constexpr double tolerance = 1e-14;
   check("elements alone", std::abs(stable_step({0.5, 0., 0.}) - 0.5), tolerance);
   // Elements with ω = 2/Δt = 4, springs with ω² = 9: ω = 5 together.
@@ -76,5 +77,6 @@ int main(int argc, char **argv) {
         std::abs(CrossingLimit::longest_step(step, 8. * 0.0025 * energy, energy) - step), tolerance);
   check("with four times as much half of it",
         std::abs(CrossingLimit::longest_step(step, 32. * 0.0025 * energy, energy) - 0.5 * step), tolerance);
-  return billet::testing::exit_code();
 }
+
+} // namespace stable_step_test

@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+namespace step_energy_test {
+
 using billet::StepEnergy;
 using billet::StepWorks;
 using billet::testing::check;
@@ -39,7 +41,7 @@ void check_limits() {
 
 } // namespace
 
-int main() {
+BILLET_TEST(step_energy) {
   check_limits();
   constexpr double k = 7., tolerance = 1e-14;
   // A spring that a wall meets after a way of 3 and presses by 0.5, and back: trapezoidal work plus what
@@ -85,5 +87,6 @@ int main() {
   check("a run that goes on knows that", resumed.judge(1.06, 0.1 / 32., {-1., 1., 1.}, 0.) == Verdict::jump);
   check("the next step begins anew", energy.judge(1.1, 0.1 / 32., {-1., 1., 1.}, 0.) == Verdict::rejected);
   check("nothing from nothing", energy.judge(2., 0.1, {0., 0., 0.}, 0.) == Verdict::balanced);
-  return billet::testing::exit_code();
 }
+
+} // namespace step_energy_test

@@ -13,6 +13,8 @@
 
 #include <sstream>
 
+namespace two_blocks_test {
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::TwoBlocks;
@@ -64,8 +66,7 @@ Outcome solve_and_check(const std::string &name, TwoBlocks &blocks, const double
 
 } // namespace
 
-int main(int argc, char *argv[]) {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+BILLET_MPI_TEST(two_blocks) {
   std::ostringstream silence;
   std::streambuf *const console = std::cout.rdbuf();
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
@@ -189,5 +190,6 @@ int main(int argc, char *argv[]) {
       check(name + ": has reported", solver.take_diagnostics().empty() && solver.take_iterations() < 200);
     }
   std::cout.rdbuf(console); // `silence` goes first
-  return billet::testing::exit_code();
 }
+
+} // namespace two_blocks_test

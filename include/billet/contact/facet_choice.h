@@ -73,12 +73,16 @@ struct GapOffset {
 ///
 /// Where facets meet smoothly, either choice is valid: share_facets() combines them.
 ///
+/// A node that pressed on a facet at the start of the step, `has_pressed`, but has none as its last
+/// one, has come through whatever it is behind: the facet's element has been divided.
+///
 /// Facets count as raised by the gap offset `gap_offset` of the augmented Lagrangian, or as lowered
 /// if it is negative.
 template <class Facet>
 TouchedFacet choose_facet(const MovedFacets &facets, std::size_t slave,
                           const FacetSearch::Positions &positions_n, const TouchedFacet &last,
-                          const ContactLimits &limits, const GapOffset &gap_offset = {});
+                          const ContactLimits &limits, const GapOffset &gap_offset = {},
+                          bool has_pressed = false);
 
 /// Returns the facet of `now` if the node still touches it, even if another facet is nearer.
 template <class Facet>

@@ -33,8 +33,10 @@ public:
   void commit() { has_started_ = true; }
   void set(std::size_t s, const TouchedFacet &touched, const std::vector<SurfaceFacet> &facets,
            const Pressure &pressed);
-  /// Finds the touched facets by their keys after their indices have changed. A facet that is no
-  /// longer near is not touched.
+  /// Says that the indices of facets have changed.
+  void forget_indices() { has_indices_ = false; }
+  /// Finds the touched facets by their keys if their indices have changed or were loaded. A facet
+  /// that is no longer near is not touched.
   void find_facets(const std::vector<SurfaceFacet> &facets);
   /// Divides the depth of a slave whose penalty was multiplied by `factor` at the same pressure.
   void divide_penetration(const std::size_t s, const double factor) { pressed_[s].penetration /= factor; }
@@ -48,7 +50,7 @@ private:
   std::vector<TouchedFacet> touched_;
   std::vector<std::uint64_t> facet_keys_; ///< of the touched facets
   std::vector<Pressure> pressed_;
-  bool has_started_ = false;
+  bool has_started_ = false, has_indices_ = false;
 };
 
 } // namespace billet
