@@ -5,8 +5,9 @@
 #   trade       run billet-trade and billet-fit, and their tests
 #   benchmarks  compare with CalculiX, billet-trade included
 #   python      format and check the Python of the repository
+#   spelling    check the spelling of texts and the format of code
 #   pictures    draw the manual's pictures with ParaView, without a display
-#   documentation  build the site of the documentation, and check its spelling and looks
+#   documentation  build the site of the documentation, and check its looks
 #   package     make and try a package for Debian
 #
 # BILLET_SKIP_PACKAGES=1 leaves the system alone, as on a cluster with modules. DEAL_II_DIR names an
@@ -15,7 +16,7 @@ set -euo pipefail
 
 case ${1:-} in
   -h | --help)
-    sed -n '2,13s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+    sed -n '2,14s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
     exit 0
     ;;
 esac
@@ -39,14 +40,15 @@ for group in "$@"; do
       packages+=(calculix-ccx calculix-ccx-test gmsh valgrind python3 python3-matplotlib python3-meshio python3-paraview)
       ;;
     python) packages+=(black flake8 mypy python3-numpy python3-yaml) ;;
+    spelling) packages+=(codespell clang-format-14) ;;
     pictures) packages+=(paraview python3-paraview python3-pil xvfb xauth) ;; # pvpython wants a display: xvfb-run, which wants xauth
     documentation)
       packages+=(python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex python3-sphinx-argparse
-        python3-breathe libjs-katex chromium codespell doxygen python3-numpy python3-matplotlib)
+        python3-breathe libjs-katex chromium doxygen python3-numpy python3-matplotlib)
       ;;
     package) packages+=(lintian mmdebstrap dpkg-dev) ;;
     *)
-      echo "packages.sh: unknown group '$group' (build, trade, benchmarks, python, pictures, documentation, package)" >&2
+      echo "packages.sh: unknown group '$group' (build, trade, benchmarks, python, spelling, pictures, documentation, package)" >&2
       exit 2
       ;;
   esac

@@ -8,10 +8,10 @@ Usage: run_test.py said FOLDER EXIT_CODE REGEX COMMAND...
 
 'said': the exit code must be the expected one, and a line that the command prints must match.
 
-'numbers': the command's last word is the name of a test. What it prints as `number NAME = VALUE` must be the
-numbers of its line in NUMBERS_FILE, 'TEST[ on RANKS]: NAME = VALUE[ +- TOLERANCE]; ...': counts exactly, others
-to 1e-8 relative, unless the line says otherwise. If the test has a file TEST.output, the file `output` that the
-command writes is compared with it.
+'numbers': the command's last word is the name of a test. What it prints as `number NAME = VALUE` must be
+the numbers of its line in NUMBERS_FILE, 'TEST[ on RANKS]: NAME = VALUE[ +- TOLERANCE]; ...': counts exactly,
+others to 1e-8 relative, unless the line says otherwise. If the test has a file TEST.output, the file `output`
+that the command writes is compared with it.
 
 'compared': the file `output` that the command writes, or else all that it prints, must be COMPARISON_FILE, as
 deal.II compares: numbers to 1e-8 relative or 1e-6.
@@ -122,13 +122,16 @@ def parse_numbers(text: str) -> dict[str, tuple[float, float]]:
         name, value = part.split(" = ")
         number, _, tolerance = value.partition(" +- ")
         exact = float(number)
-        numbers[name] = (exact, float(tolerance) if tolerance else 0 if exact.is_integer() else 1e-8 * abs(exact))
+        numbers[name] = (
+            exact,
+            float(tolerance) if tolerance else 0 if exact.is_integer() else 1e-8 * abs(exact),
+        )
     return numbers
 
 
 def update_line(file: Path, key: str, printed: dict[str, str], old: dict[str, tuple[float, float]]) -> None:
-    """Writes the numbers that a test printed to its line, those that are in it or all if it has none. Tolerances
-    stay."""
+    """Writes the numbers that a test printed to its line: those that are in it, or all if it has none.
+    Tolerances stay."""
     with open(file, "r+", encoding="utf-8") as table:
         fcntl.flock(table, fcntl.LOCK_EX)
         lines = table.read().splitlines()

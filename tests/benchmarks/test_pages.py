@@ -3,13 +3,11 @@
 
 from __future__ import annotations
 
-import ast
 import math
 import re
-import sys
 import unittest
 from pathlib import Path
-from typing import Iterable, Iterator, Sequence
+from typing import Iterable, Sequence
 
 from hand_set import beside_hand_set
 from level_errors import by_levels
@@ -36,40 +34,6 @@ from billet_tools.scene import scene_text
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path.insert(0, str(HERE.parent))
-import prose  # noqa: E402
-
-
-def texts_of(script: Path) -> Iterator[str]:
-    """Returns the strings of a script, with a word for each value that it puts in; not its docstrings."""
-
-    def walk(node: ast.AST) -> Iterator[str]:
-        if isinstance(node, ast.JoinedStr):
-            yield "".join(part.value if isinstance(part, ast.Constant) else "X" for part in node.values)
-        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            yield node.value
-        elif not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
-            for child in ast.iter_child_nodes(node):
-                yield from walk(child)
-
-    return walk(ast.parse(script.read_text(encoding="utf-8")))
-
-
-class Sentences(unittest.TestCase):
-    def test_what_scripts_write_is_short(self) -> None:
-        """The next run of a script must not write longer sentences than tests/prose.py allows on pages."""
-        scripts = [*HERE.glob("*.py"), *(ROOT / "tests/extremes/extremes").glob("*.py")]
-        scripts += (ROOT / "tools/billet_tools/trade").glob("*.py")
-        for script in scripts:
-            for text in texts_of(script):
-                if "subsection" in text or "--" in text[:20]:  # scenes and commands
-                    continue
-                faults = [fault for fault in prose.faults_of(text) if "columns" not in fault.what]
-                self.assertEqual(faults, [], script.name)
-
-    def test_text_is_found(self) -> None:
-        self.assertIn("one X two", list(texts_of(Path(__file__))))
-        self.assertEqual(f"one {len('ab')} two", "one 2 two")
 
 
 class Counting(unittest.TestCase):

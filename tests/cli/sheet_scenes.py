@@ -176,7 +176,7 @@ def _() -> None:
     near("force of the punch", found, stiff, 1e-3)
 
 
-@check("a sheet with friction converges under tight tolerances; chatter takes back a raised penalty alone")
+@check("a sheet with friction converges under tight tolerances; no penalty falls below its start")
 def _() -> None:
     left = {
         "Contact pairs/blank on punch": ("Penalty unit", "Normal penalty"),
@@ -196,8 +196,10 @@ def _() -> None:
     # It takes 1,738 if nodes that have left a tool rest on it and penalties of 320 E/h fall to 0.04 E/h.
     iterations = sum(row["iterations"] for row in rows)
     require(iterations < 800, f"{iterations} iterations")
-    log = Path("tight/billet.log").read_text()
-    equal("penalties that fall", re.findall(r"The penalty is reduced from \d+ to (\S+) E/h", log), ["10"])
+    # Whether nodes chatter depends on round-off; what they do then, not.
+    fallen = re.findall(r"The penalty is reduced from \d+ to (\S+) E/h", Path("tight/billet.log").read_text())
+    require(all(float(penalty) >= 10.0 for penalty in fallen), f"penalties fall to {fallen} E/h")
+    near("force of the punch", rows[-1]["punch.force_z"], -2116.7, 1e-3)
 
 
 @check("--check tells that penalties of pairs with tools may fall, and no others")

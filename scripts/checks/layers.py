@@ -115,7 +115,7 @@ def faults_of(file: str) -> list[str]:
     match = PLACE.fullmatch(file)
     layer, name = (match[1], match[2]) if match else (None, "")
     if layer not in LEVELS if layer is not None else name not in ABOVE_ALL | FOR_ALL:
-        return [f"{file}: on no layer of the list in tests/layers.py"]
+        return [f"{file}: on no layer of the list in scripts/checks/layers.py"]
     faults = []
     for number, line in enumerate(without_comments(Path(file).read_text(encoding="utf-8")).split("\n"), 1):
         if re.search(r"\bParameterHandler\b", line) and layer != "parameters":

@@ -90,7 +90,7 @@ def files() -> list[Path]:
         path
         for folder in FOLDERS
         for path in Path(folder).rglob("*")
-        if path.suffix in KINDS and path.is_file() and path != Path("tests/equations.py")
+        if path.suffix in KINDS and path.is_file() and path != Path("scripts/checks/equations.py")
     ]
     return sorted(found) + [Path("README.md")]
 

@@ -12,7 +12,7 @@ import re
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 TABLE = "source/parameters/renames.cc"
 FOLDERS = ("doc", "include", "prm", "scripts", "source", "tests", "tools")
 SUFFIXES = (".cases", ".cc", ".csv", ".h", ".md", ".output", ".prm", ".py", ".txt")

@@ -19,7 +19,7 @@ from typing import Any
 
 import yaml
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 CITATION = "CITATION.cff"
 WORKFLOW = ".github/workflows/ci.yml"
 CONTAINER = "Containerfile"
@@ -204,7 +204,7 @@ BROKEN: tuple[
     (WORKFLOW, "run: .ci/run", "run: make", "no step runs .ci/run"),
     (CONTAINER, f"FROM {IMAGE}", "FROM fedora", f"not from {IMAGE}"),
     (CONTAINER, "quickstart prm/billet_upsetting.prm", "quickstart", "the billet is not forged"),
-    (CONTAINER, "packages.sh build", "packages.sh buld", "no group of packages buld"),
+    (CONTAINER, "packages.sh build", "packages.sh nowhere", "no group of packages nowhere"),
     (".github/ISSUE_TEMPLATE/failure.yml", "id: log", "id: scene", "two fields with one id"),
     (".github/ISSUE_TEMPLATE/failure.yml", "label: Log", "title: Log", "no label"),
     (".github/ISSUE_TEMPLATE/failure.yml", "doc/messages.md", "doc/message.md", "no file doc/message.md"),
