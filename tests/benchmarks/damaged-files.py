@@ -20,10 +20,10 @@ MAX_SECONDS = 10  # as in tests/fuzz/fuzz.h
 
 
 class Target(NamedTuple):
-    """A fuzz target: the files that it damages, its program, and how many files it makes of each."""
+    """A fuzz target: the files that it damages, its test, and how many files it makes of each."""
 
     what: str
-    program: str
+    test: str
     n_files: int
 
 
@@ -54,11 +54,12 @@ class Counts(NamedTuple):
 
 def damage(target: Target) -> Counts:
     """Runs a target."""
-    program = TESTS / target.program.split(".")[0] / "bin" / target.program
+    folder_of_tests, name = target.test.split(".")
+    program = TESTS / folder_of_tests / "bin" / f"{folder_of_tests}_tests"
     n_files = target.n_files // (20 if options.quick else 1)
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run(
-            [str(program), str(n_files)],
+            [str(program), name, str(n_files)],
             cwd=folder,
             capture_output=True,
             text=True,
@@ -69,7 +70,7 @@ def damage(target: Target) -> Counts:
             print(f"kept: {TESTS / 'fuzz' / kept.name}", file=sys.stderr)
     rows = LINE.findall(done.stdout)
     end = {0: "passes", 1: "fails", 2: "hangs"}.get(done.returncode, f"ends with {done.returncode}")
-    print(f"{target.program}: {end}", *re.findall(r".*FAILED", done.stdout), file=sys.stderr, flush=True)
+    print(f"{target.test}: {end}", *re.findall(r".*FAILED", done.stdout), file=sys.stderr, flush=True)
     return Counts(
         sum(int(row[1]) for row in rows),
         sum(int(row[2]) for row in rows),
@@ -109,7 +110,7 @@ publish(
         [
             [
                 target.what,
-                f"`{target.program}`",
+                f"`{target.test}`",
                 f"{one.n_files}",
                 f"{one.n_refused}",
                 f"{one.n_files - one.n_refused - one.n_unsound}",
