@@ -25,6 +25,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <spawn.h>
 #include <string>
 #include <unistd.h>
@@ -36,7 +37,7 @@ namespace {
 using billet::ExitCode;
 
 const char help[] =
-    R"(Usage: billet SCENE.prm                  run a scene on one process
+    R"(Usage: billet SCENE.prm...               run scenes on one process, one after the other
        billet --ranks N SCENE.prm       run it on N processes; on several machines:
                                         mpirun -n N billet SCENE.prm
        billet --restart FILE SCENE.prm  resume from a checkpoint
@@ -272,10 +273,51 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
     command.task = Task::run;
   else if (!command.option_of_runs.empty())
     refuse(command.option_of_runs);
-  const std::size_t max_files = command.task == Task::run ? 1 : 2;
-  if (command.scenes.size() > max_files)
-    refuse(command.scenes[max_files]);
+  if (command.task == Task::update_scene && command.scenes.size() > 2)
+    refuse(command.scenes[2]);
   return command;
+}
+
+void print_errors(const billet::DiagnosticList &errors, const bool is_first) {
+  if (is_first)
+    for (const auto &error : errors)
+      std::cerr << error.text() << std::endl;
+}
+
+/// Lets a child of this process run each scene if the arguments name several, see
+/// billet::run_each(). The arguments of a child are then those of its scene.
+std::optional<int> run_each(std::vector<std::string> &arguments) {
+  if (billet::is_launched())
+    return {};
+  std::vector<std::string> ranks, others = arguments;
+  if (const auto option = std::find(others.begin(), others.end(), "--ranks"); option != others.end()) {
+    if (option + 1 == others.end()) // launch() refuses it
+      return {};
+    ranks.assign(option, option + 2);
+    others.erase(option, option + 2);
+  }
+  try {
+    const CommandLine command = read_command_line(others);
+    if (command.task != Task::run || command.scenes.size() < 2)
+      return {};
+    for (const std::string name : {"--output", "--restart"})
+      if (std::find(others.begin(), others.end(), name) != others.end())
+        throw billet::InputError("command line: '" + name + "' is for one scene, and " +
+                                 std::to_string(command.scenes.size()) +
+                                 " are named; allowed is one scene with it, or several without");
+    std::size_t scene = 0;
+    if (const auto code = billet::run_each(command.scenes, scene))
+      return code;
+    arguments = ranks;
+    for (const std::string &argument : others)
+      if (std::find(command.scenes.begin(), command.scenes.end(), argument) == command.scenes.end())
+        arguments.push_back(argument);
+    arguments.push_back(command.scenes[scene]);
+  } catch (const billet::InputError &error) {
+    print_errors(error.diagnostics(), true);
+    return static_cast<int>(ExitCode::bad_input);
+  }
+  return {};
 }
 
 /// Returns a text as one word of a shell.
@@ -318,12 +360,6 @@ void use_scene(const std::string &file, const CommandLine &command, const Functi
     throw billet::InputError(billet::find_all_errors({file, command.restart_file, command.settings},
                                                      error.diagnostics(), MPI_COMM_WORLD));
   }
-}
-
-void print_errors(const billet::DiagnosticList &errors, const bool is_first) {
-  if (is_first)
-    for (const auto &error : errors)
-      std::cerr << error.text() << std::endl;
 }
 
 /// Prints the JSON object of `--check --json` for a refused scene.
@@ -463,6 +499,8 @@ ExitCode perform(const CommandLine &command, const bool is_first, billet::Consol
     });
     break;
   case Task::run:
+    if (command.scenes.size() > 1) // on several ranks at once
+      refuse(command.scenes[1]);
     use_scene(command.scenes.front(), command, [&](const billet::parameters::Scene &scene) {
       code = billet::run_to_target(scene, MPI_COMM_WORLD,
                                    {command.replaces_results, log, command.is_quiet, changes_of(command)});
@@ -475,7 +513,9 @@ ExitCode perform(const CommandLine &command, const bool is_first, billet::Consol
 } // namespace
 
 int main(int argc, char *argv[]) {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (const auto code = run_each(arguments))
+    return *code;
   if (const auto code = billet::launch(arguments))
     return *code;
   billet::prepare_for_one_process();

@@ -26,6 +26,7 @@ constexpr const char *exit_code_file = "BILLET_EXIT_CODE_FILE"; // in the enviro
 constexpr int max_ranks = 99999;
 
 volatile pid_t mpirun = 0;
+volatile pid_t current_run = 0; // of run_each()
 
 /// mpirun passes SIGUSR1 and SIGUSR2 on to its ranks, but kills them on other signals. A second
 /// Ctrl-C does that.
@@ -38,15 +39,12 @@ void pass_on(const int signal) {
     kill(mpirun, !stops ? signal : n_stops == 1 ? SIGUSR1 : SIGTERM);
 }
 
-[[noreturn]] void refuse(const std::string &what) { throw InputError("command line: " + what); }
-
-/// Whether mpirun or a batch system started this process as one of its ranks.
-bool is_launched() {
-  const std::array<const char *, 5> variables = {
-      {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_SIZE", "PMI_RANK"}};
-  return std::any_of(variables.begin(), variables.end(),
-                     [](const char *variable) { return std::getenv(variable) != nullptr; });
+void pass_on_to_run(const int signal) {
+  if (current_run > 0)
+    kill(current_run, signal);
 }
+
+[[noreturn]] void refuse(const std::string &what) { throw InputError("command line: " + what); }
 
 /// Takes "--ranks N" from the arguments. Returns N; empty if it is not there.
 std::string take_ranks(std::vector<std::string> &arguments) {
@@ -97,7 +95,54 @@ int wait_for_ranks(const std::string &file) {
   return code;
 }
 
+/// Waits for a run of run_each(). Returns its exit code.
+int wait_for_run(const std::string &scene) {
+  int status = 0;
+  while (waitpid(current_run, &status, 0) < 0 && errno == EINTR) {
+  }
+  current_run = 0;
+  if (WIFEXITED(status))
+    return WEXITSTATUS(status);
+  const int signal = WTERMSIG(status);
+  std::cerr << Diagnostic(diagnostic::internal_error, scene + ": the run was ended by signal " +
+                                                          std::to_string(signal) + ", " + strsignal(signal))
+                   .text()
+            << std::endl;
+  return static_cast<int>(ExitCode::internal_error);
+}
+
 } // namespace
+
+bool is_launched() {
+  const std::array<const char *, 5> variables = {
+      {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_SIZE", "PMI_RANK"}};
+  return std::any_of(variables.begin(), variables.end(),
+                     [](const char *variable) { return std::getenv(variable) != nullptr; });
+}
+
+std::optional<int> run_each(const std::vector<std::string> &scenes, std::size_t &scene) {
+  const std::array<int, 3> signals = {{SIGINT, SIGTERM, SIGUSR1}};
+  int first_code = static_cast<int>(ExitCode::success);
+  for (scene = 0; scene < scenes.size(); ++scene) {
+    std::cout << "Scene " << scene + 1 << " of " << scenes.size() << ": " << scenes[scene] << std::endl;
+    for (const int signal : signals)
+      std::signal(signal, pass_on_to_run);
+    current_run = fork();
+    if (current_run == 0) {
+      for (const int signal : signals)
+        std::signal(signal, SIG_DFL);
+      setpgid(0, 0); // Ctrl-C reaches the parent alone, which passes it on
+      return {};
+    }
+    const int code =
+        current_run > 0 ? wait_for_run(scenes[scene]) : static_cast<int>(ExitCode::internal_error);
+    if (first_code == 0)
+      first_code = code;
+    if (code == static_cast<int>(ExitCode::stopped))
+      break;
+  }
+  return first_code;
+}
 
 std::optional<int> launch(const std::vector<std::string> &arguments) {
   try {

@@ -17,6 +17,19 @@ namespace billet {
 /// starts.
 std::optional<int> launch(const std::vector<std::string> &arguments);
 
+/// Whether mpirun or a batch system started this process as one of its ranks.
+bool is_launched();
+
+/// Runs several scenes one after the other, each in a child of this process. The libraries are
+/// loaded once: that takes most of the time of a small scene. A child that crashes ends only
+/// itself; one that was stopped (ExitCode::stopped) is the last. Ctrl-C, SIGTERM and SIGUSR1 stop
+/// the current one.
+///
+/// Returns nothing in a child, with the index of its scene in `scene`; in this process, when all
+/// have ended, the exit code of the first one that has not ended with 0. To be called before MPI
+/// starts.
+std::optional<int> run_each(const std::vector<std::string> &scenes, std::size_t &scene);
+
 /// Lets a process that no launcher started begin MPI without networks: the search for these takes a
 /// third of the time of `billet --version`. To be called before MPI starts; other MPIs than Open
 /// MPI ignore it.
