@@ -2,6 +2,7 @@
 #include "billet/contact/body_surfaces.h"
 
 #include "billet/contact/overlap.h"
+#include "billet/contact/surface_correction.h"
 #include "billet/discretization/boundary_facets.h"
 
 #include <algorithm>

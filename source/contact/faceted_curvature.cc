@@ -2,7 +2,7 @@
 #include "billet/contact/faceted_curvature.h"
 
 #include "billet/algebra/gather.h"
-#include "billet/contact/overlap.h"
+#include "billet/contact/surface_correction.h"
 #include "billet/diagnostic_kinds.h"
 #include "billet/discretization/smooth_facets.h"
 #include "billet/errors.h"
@@ -26,15 +26,6 @@ struct FacetedCurvatureLimits {
   /// it in any case.
   static constexpr double notable = 0.03;
 };
-
-/// Collects the facets of all ranks with these boundary ids, those of this rank first.
-std::vector<SmoothFacet> collect_facets(const Discretization &discretization, const std::size_t body,
-                                        const std::vector<unsigned int> &boundary_ids,
-                                        const Vector *displacements, std::size_t &n_own_facets) {
-  const auto own = collect_boundary_facets(discretization, body, boundary_ids);
-  n_own_facets = own.size();
-  return make_smooth_facets(discretization, own, displacements);
-}
 
 /// Search for the facets near a point.
 class NearFacets {
@@ -97,10 +88,10 @@ ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pa
                         const Vector *displacements) {
   const MPI_Comm communicator = discretization.communicator();
   std::size_t n_own_facets = 0, n_others = 0;
-  const auto facets = collect_facets(discretization, pair.bodies[0], pair.boundary_ids[0], displacements,
-                                     n_own_facets),
-             others = collect_facets(discretization, pair.bodies[1], pair.boundary_ids[1], displacements,
-                                     n_others);
+  const auto facets = collect_smooth_facets(discretization, pair.bodies[0], pair.boundary_ids[0],
+                                            displacements, n_own_facets),
+             others = collect_smooth_facets(discretization, pair.bodies[1], pair.boundary_ids[1],
+                                            displacements, n_others);
   const NearFacets near(others);
   constexpr std::array<double, 3> along{-1., 0., 1.};
   std::array<double, 6> worst{}; // relative, gap, clearance, position
@@ -131,66 +122,6 @@ ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pa
   return result;
 }
 
-double tilt_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction) {
-  const Tensor<1, 3> area = facet.area_vector();
-  if (!(area.norm() > 0.))
-    return 0.;
-  Tensor<1, 3> arm;
-  for (const auto &corner : facet.corners)
-    arm += 0.25 * (corner - correction.point);
-  if (correction.kind == parameters::ContactPair::Correction::Kind::cylinder) {
-    const Tensor<1, 3> around = dealii::cross_product_3d(correction.axis, arm);
-    return around.norm() > 0. ? std::abs(area * around) / (area.norm() * around.norm()) : 0.;
-  }
-  return arm.norm() > 0. ? dealii::cross_product_3d(arm, area).norm() / (arm.norm() * area.norm()) : 1.;
-}
-
-void check_correction(const Scene &scene, const BodyPair &pair, const Discretization &discretization) {
-  using Correction = parameters::ContactPair::Correction;
-  if (pair.correction.kind == Correction::Kind::none)
-    return;
-  constexpr double min_part = 0.5;
-  const MPI_Comm communicator = discretization.communicator();
-  const std::string point = pair.correction.kind == Correction::Kind::cylinder ? "axis" : "centre";
-  for (unsigned int side = 0; side < 2; ++side) {
-    std::size_t n_own_facets = 0;
-    const auto facets =
-        collect_facets(discretization, pair.bodies[side], pair.boundary_ids[side], nullptr, n_own_facets);
-    std::array<double, 4> worst{};      // tilt, position
-    double named = 0., of_normals = 0.; // sums of heights
-    for (const auto &facet : facets) {  // of all ranks
-      BoundaryFacet boundary{};
-      std::copy(facet.corners.begin(), facet.corners.end(), boundary.corners.begin());
-      for (const double height : bulge_of(boundary, pair.correction))
-        named += std::abs(height);
-      for (const double height : facet.bulge)
-        of_normals += std::abs(height);
-      const double tilt = tilt_of(boundary, pair.correction);
-      const Tensor<1, 3> middle = facet::interpolate(facet::weights({0., 0.}), facet.corners);
-      worst = std::max(worst, {tilt, middle[0], middle[1], middle[2]});
-    }
-    // The order of summation differs between ranks, but their decisions must agree.
-    named = dealii::Utilities::MPI::max(named, communicator);
-    of_normals = dealii::Utilities::MPI::max(of_normals, communicator);
-    const std::string &body = scene.bodies()[pair.bodies[side]].name;
-    std::ostringstream text;
-    text.precision(3);
-    text << pair.input->origin << ": the face of body '" << body
-         << "' does not lie on the surface of 'Surface correction': ";
-    if (worst[0] > max_tilt)
-      text << "at (" << worst[1] << ", " << worst[2] << ", " << worst[3] << ") its normal misses the "
-           << point << " by " << worst[0] << " of the distance to it; allowed is " << max_tilt;
-    else if (named < min_part * of_normals)
-      text << "the surface rises above the chords by " << 100. * named / of_normals
-           << " % of the height that normals of neighbouring facets give; allowed are " << 100. * min_part
-           << " %";
-    else
-      continue;
-    text << ". Check the " << point << " and the boundary ids of both bodies";
-    throw InputError(Diagnostic(diagnostic::bad_input, text.str()).body(body).pair(pair.name));
-  }
-}
-
 namespace {
 
 using Correction = parameters::ContactPair::Correction;
@@ -199,37 +130,6 @@ using Correction = parameters::ContactPair::Correction;
 bool is_faceted(const BodyPair &pair) {
   return pair.correction.kind == Correction::Kind::none && !pair.is_self_contact &&
          pair.bodies[0] != pair.bodies[1];
-}
-
-/// Returns the maximum error of the corrected facets of both sides against the surface in the scene
-/// [length]. Between the corners the surface has the bilinear radius of these. Collective.
-double find_correction_error(const Discretization &discretization, const BodyPair &pair) {
-  constexpr std::array<double, 3> along{-0.5, 0., 0.5};
-  double sum = 0.;
-  for (unsigned int side = 0; side < 2; ++side) {
-    double worst = 0.;
-    for (const auto &boundary :
-         collect_boundary_facets(discretization, pair.bodies[side], pair.boundary_ids[side])) {
-      FacetCorners corners;
-      std::copy(boundary.corners.begin(), boundary.corners.end(), corners.begin());
-      const FacetBulge bulge = bulge_of(boundary, pair.correction);
-      const Tensor<1, 3> area = boundary.area_vector();
-      if (!(area.norm() > 0.))
-        continue;
-      for (const double xi : along)
-        for (const double eta : along) {
-          const auto weights = facet::weights({xi, eta});
-          const Tensor<1, 3> x = facet::interpolate(weights, corners) +
-                                 facet::height<double>(bulge, {xi, eta}) * area / area.norm();
-          double radius = 0.;
-          for (unsigned int a = 0; a < 4; ++a)
-            radius += weights[a] * arm_to(corners[a], pair.correction).norm();
-          worst = std::max(worst, std::abs(arm_to(x, pair.correction).norm() - radius));
-        }
-    }
-    sum += dealii::Utilities::MPI::max(worst, discretization.communicator());
-  }
-  return sum;
 }
 
 Diagnostic describe(const BodyPair &pair, const ChordGap &chords, const std::string &when) {

@@ -3,7 +3,7 @@
 
 #include "billet/algebra/gather.h"
 #include "billet/contact/facet_overlaps.h"
-#include "billet/contact/faceted_curvature.h"
+#include "billet/contact/surface_correction.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
 #include "billet/geometry/bilinear_facet.h"
@@ -338,33 +338,6 @@ Overlap find_self_overlap(const Discretization &discretization, const std::size_
 double contact_reach(const BoundaryFacet &facet) {
   constexpr double part_of_facet = 0.1, part_of_wall = 0.4;
   return std::min(part_of_facet * std::sqrt(facet.area_vector().norm()), part_of_wall * facet.thickness);
-}
-
-Tensor<1, 3> arm_to(const Tensor<1, 3> &x, const parameters::ContactPair::Correction &correction) {
-  const Tensor<1, 3> from_point = x - correction.point;
-  return correction.kind == parameters::ContactPair::Correction::Kind::cylinder
-             ? from_point - (from_point * correction.axis) * correction.axis
-             : from_point;
-}
-
-FacetBulge bulge_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction) {
-  using Correction = parameters::ContactPair::Correction;
-  FacetBulge bulge{};
-  const double area = facet.area_vector().norm();
-  if (correction.kind == Correction::Kind::none || !(area > 0.))
-    return bulge;
-  const auto arm = [&](const Tensor<1, 3> &x) { return arm_to(x, correction); };
-  const Tensor<1, 3> normal = facet.area_vector() / area;
-  for (unsigned int i = 0; i < 4; ++i) {
-    const Tensor<1, 3> a = facet.corners[facet::around[i]], b = facet.corners[facet::around[(i + 1) % 4]],
-                       middle = arm(0.5 * (a + b));
-    if (!(middle.norm() > 0.))
-      continue;
-    // Along the facet's normal, which on a cone is not radial.
-    const double radial = 0.5 * (arm(a).norm() + arm(b).norm()) - middle.norm();
-    bulge[i] = radial * (middle * normal) / middle.norm();
-  }
-  return bulge;
 }
 
 void check_overlap(const Scene &scene, const std::size_t pair, const Discretization &discretization) {

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later Collects nodes that may touch a tool, and points inside facets
-// between which it could enter.
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Collects nodes that may touch a tool, and points inside facets between which it could enter.
 #include "billet/contact/slave_surface.h"
 
 #include "billet/contact/facet_division.h"

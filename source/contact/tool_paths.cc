@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later Computes how far nodes and tools may move before nodes pass
-// through a tool.
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Computes how far nodes and tools may move before nodes pass through a tool.
 #include "billet/contact/tool_paths.h"
 
 #include "billet/contact/crossing.h"

@@ -2,6 +2,7 @@
 // Facets against the surface that a scene names for them: of a cylinder, a cone, a barrel and a sphere they
 // do not tilt; if the axis is off by d, the largest tilt around a cylinder of radius R is d/R.
 #include "billet/contact/faceted_curvature.h"
+#include "billet/contact/surface_correction.h"
 
 #include "../testing.h"
 

@@ -26,22 +26,6 @@ struct ChordGap {
 ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pair,
                         const Vector *displacements = nullptr);
 
-/// Returns the tilt of an undeformed facet against its surface of revolution, or its sphere, in the
-/// scene. It is the sine of the angle between its normal and the plane through its middle and the
-/// axis, or the line to the centre. It is 0 for symmetric facets of the surface. For others it is
-/// of second order in their angle, for any profile of a surface of revolution. If an axis is off by
-/// d, the maximum tilt is about d/R.
-double tilt_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction);
-
-/// Maximum tilt of a facet of the named surface. This is about the relative error of heights above
-/// the facet.
-constexpr double max_tilt = 0.1;
-
-/// Throws InputError if the faces of the pair do not belong to the surface of 'Surface correction'.
-/// Then facets tilt too much, or its heights are on average less than half of those of mean nodal
-/// normals. Collective.
-void check_correction(const Scene &scene, const BodyPair &pair, const Discretization &discretization);
-
 /// Returns a warning for each pair of two bodies whose chord gap exceeds the allowed initial
 /// penetration and a fifth of the clearance there. Collective.
 DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &discretization);

@@ -14,15 +14,6 @@ namespace billet {
 /// of the facet, rather than through it, must not be ejected.
 double contact_reach(const BoundaryFacet &facet);
 
-/// Returns the vector from the axis, or the centre, of the surface of `correction` to a point
-/// [length].
-dealii::Tensor<1, 3> arm_to(const dealii::Tensor<1, 3> &x,
-                            const parameters::ContactPair::Correction &correction);
-
-/// Returns the bulge, above the undeformed facet, of the true surface in the scene; 0 if there is
-/// none. Its distance from the axis, or the centre, is linear between the nodes of an edge.
-FacetBulge bulge_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction);
-
 /// Returns this rank's boundary of a body except its symmetry planes, behind which the body
 /// continues.
 std::vector<BoundaryFacet> collect_free_boundary(const Discretization &discretization, std::size_t body,
