@@ -21,7 +21,6 @@ ALLOWED = (
     "CHANGELOG.md",
     "doc/news/",
     "tests/cli/old/",
-    "tests/benchmarks/earlier-version.py",  # scenes of an earlier version
     "tests/cli/update.py",
     "tests/cli/input_syntax.cases",
 )
