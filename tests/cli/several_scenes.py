@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: several_scenes.py BILLET
 
-Runs several scenes with one command, in an empty current folder: each must end as it does by itself, bit by bit,
-and a crash must end only one of them.
+Runs several scenes with one command, in an empty current folder: each must end as it does by itself, bit by
+bit, and a crash must end only one of them.
 """
 
 from __future__ import annotations

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 
 class Mutant(NamedTuple):
-    """A fault. `original` stands once in `file`; in `mutated`, HERE is true for this fault alone. `tests`, as for
-    ctest -R, are those that should find it first."""
+    """A fault. `original` stands once in `file`; in `mutated`, HERE is true for this fault alone. `tests`, as
+    for ctest -R, are those that should find it first."""
 
     what: str
     file: str
@@ -21,7 +21,8 @@ MUTANTS = (
     Mutant(
         "a force of contact times 1.01",
         "source/contact/traction.cc",
-        "traction.pressure = std::max(0., -normal_stiffness * gap);\n  traction.tangent[2][2] = normal_stiffness;",
+        "traction.pressure = std::max(0., -normal_stiffness * gap);\n"
+        "  traction.tangent[2][2] = normal_stiffness;",
         "traction.pressure = (HERE ? 1.01 : 1.) * std::max(0., -normal_stiffness * gap);\n"
         "  traction.tangent[2][2] = (HERE ? 1.01 : 1.) * normal_stiffness;",
         "^contact/",
@@ -132,7 +133,8 @@ MUTANTS = (
         "a solution of MUMPS off by 1e-9",
         "source/algebra/direct_solver.cc",
         "const bool success = call(job_solve);",
-        "const bool success = call(job_solve);\n    if (HERE && !whole.empty())\n      whole.front() *= 1. + 1e-9;",
+        "const bool success = call(job_solve);\n    if (HERE && !whole.empty())\n"
+        "      whole.front() *= 1. + 1e-9;",
         "^algebra/",
     ),
     Mutant(
