@@ -61,7 +61,12 @@ def run(folder: Path, command: Sequence[str]) -> int:
     # Open MPI binds ranks to cores from the first one on: two tests at a time would share it and leave others
     # idle.
     # up to Open MPI 5, from 6 on
-    variables = {"OMPI_MCA_hwloc_base_binding_policy": "none", "PRTE_MCA_bindto": "none"}
+    # Ranks that wait let others compute.
+    variables = {
+        "OMPI_MCA_hwloc_base_binding_policy": "none",
+        "PRTE_MCA_bindto": "none",
+        "OMPI_MCA_mpi_yield_when_idle": "1",
+    }
     if not any(Path(word).name.startswith("mpi") for word in command):
         # As the program does by itself: one process needs no network, whose search takes time.
         variables |= {"OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self"}

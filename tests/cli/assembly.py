@@ -44,7 +44,7 @@ CLOSED = (
 )
 for facets in ("overlap", "bilinear", "planed"):
     exact = billet(BOLT, f"seat: Facets = {facets}").last("press.force_z")
-    for ranks in (1, 2):
+    for ranks in (1, 2) if facets == "planed" else (1,):
 
         @check(f"play is closed, {facets}, {ranks} ranks")
         def _() -> None:
@@ -83,6 +83,8 @@ for name, drawn, changed in (
 ):
     touching = billet(SLIDER, drawn).last("base.support foot.force_y")
     for edits, what, ranks in ((changed[0], "gap", 1), (changed[0], "gap", 2), (changed[1], "overlap", 1)):
+        if ranks > 1 and name != "slider":
+            continue
         both = edits if name != "slider, nodes and facets" else f"{drawn} & {edits}"
 
         @check(f"{name} on a base, {what} on {ranks} ranks: the force after a slide")
@@ -159,7 +161,7 @@ for n in (10, 12):
         ran = billet(PIN, circles + SHIFT, 2, "--check")
         require(warns(ran), ran.said)
 
-    for ranks in (1, 2):
+    for ranks in (1, 2) if n == 10 else (1,):
 
         @check(f"{2 * n} facets: the true surface, {ranks} ranks")
         def _() -> None:

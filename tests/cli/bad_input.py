@@ -14,8 +14,9 @@ EDIT, NAME at the start of a line stands for EDIT. '#' begins a comment. The not
 not count.
 
 One start of the program with --check reads the whole table: it must say the messages and nothing else. Every
-tenth scene (fiftieth under mpirun), and every one of a table run_*.cases (of what --check may pass), is also
-run. Each must end with exit code 2 and leave every file as it was, results of a run before included.
+thirtieth scene, and every one of a table run_*.cases (of what --check may pass), is also run. Each must end
+with exit code 2 and leave every file as it was, results of a run before included. Tables *_ranks*.cases, of
+what ranks might take for different, run on two ranks; all others on one.
 """
 
 from __future__ import annotations
@@ -135,7 +136,7 @@ def main() -> int:
     runs_all = table.name.startswith("run_")
     if not runs_all:
         refusals.run(cases, "--check")
-    for case in cases[:: 1 if runs_all else 10 if len(command) == 1 else 50]:
+    for case in cases[:: 1 if runs_all else 30]:
         refusals.run([case])
 
     for case in cases:

@@ -25,6 +25,10 @@ SHIPPED = HERE.parents[1] / "prm"
 # Sanitizers take their time, and that of addresses takes all of them for itself.
 IS_SANITIZED = "ASAN_OPTIONS" in os.environ
 TIME_LIMIT = 900 if IS_SANITIZED else 60  # seconds; ranks that wait for each other fail
+# Of Open MPI, for all that these scripts start: ranks that wait let others compute.
+# (ess_singleton_isolated would save the daemon of a process alone, but all such processes then share a folder
+# in /tmp, and writing files in parallel fails.)
+os.environ.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
 # bytes of addresses for each process; MPI's libraries alone want a good part of it
 MEMORY_LIMIT = 8_000_000 * 1024
 

@@ -19,8 +19,10 @@ stands for no warning at all (notes may be printed), 'code 6' for the exit code.
 
 from __future__ import annotations
 
+import json
 import re
 import sys
+from typing import NamedTuple
 
 from checks import (
     HERE,
@@ -33,6 +35,8 @@ from checks import (
     read_scene,
     read_text,
     require,
+    run,
+    write_text,
 )
 
 
@@ -81,14 +85,26 @@ def require_message(key: str, printed: list[str], said: str) -> None:
         require(is_near, f"{name} says {found[1]}, not {value}")
 
 
-def main() -> int:
-    """Returns the exit code."""
-    table, billet = sys.argv[1:]
-    lines = read_text(table).split("\n")
-    enter_folder()
-    check, runner = Checks("cases"), Runner(Program([billet]))
+class Case(NamedTuple):
+    """A line of the table: a scene with its edits, how it is run, and what must be printed."""
+
+    name: str
+    scene: str
+    edits: str
+    is_check: bool
+    keys: str
+
+    @property
+    def goes_alone(self) -> bool:
+        """Whether it is run, or has an exit code that a check of several scenes does not tell."""
+        return not self.is_check or "code " in self.keys
+
+
+def read_cases(table: str) -> list[Case]:
+    """Returns the cases of a table."""
+    cases: list[Case] = []
     short: dict[str, str] = {}
-    for line in lines:
+    for line in read_text(table).split("\n"):
         if re.match(r"\s*(#|$)", line):
             continue
         if match := re.match(r"(\w+) := (.*)", line):
@@ -98,14 +114,50 @@ def main() -> int:
         if match is None:
             sys.exit(f"{table}: no case: {line}")
         option, scene, edits, keys = match.groups()
-        text = scene_text(scene)
         expanded = " & ".join(short.get(one, one) for one in edits.split(" & "))
-        options = ["--check"] if option else []
+        cases.append(Case(f"{option or ''}{scene}: {edits}", scene, expanded, bool(option), keys))
+    return cases
 
-        @check(f"{option or ''}{scene}: {edits}")
+
+def printed_message(one: dict[str, str]) -> str:
+    """Returns the line that is printed of a message in JSON."""
+    places = ", ".join(f"{part} '{one[part]}'" for part in ("pair", "body", "tool") if part in one)
+    return f"{one['severity']}[{one['key']}]: {one['message']} ({places}). {one['advice']}\n"
+
+
+def check_at_once(cases: list[Case], runner: Runner) -> dict[Case, tuple[int, str]]:
+    """Checks these in one start of the program, and returns the code and the messages of each."""
+    files = {}
+    for case in cases:
+        folder, text = runner.scene(scene_text(case.scene), case.edits)
+        write_text(f"{folder}.prm", text)
+        files[case] = f"{folder}.prm"
+    ended = run(runner.program.path, "--check", "--json", *files.values())
+    reports = {report["file"]: report for report in map(json.loads, ended.output.splitlines())}
+    found = {}
+    for case, file in files.items():
+        said = "".join(map(printed_message, reports[file]["diagnostics"]))
+        found[case] = (0 if reports[file]["valid"] else 2, said)
+    return found
+
+
+def main() -> int:
+    """Returns the exit code."""
+    table, billet = sys.argv[1:]
+    enter_folder()
+    check, runner = Checks("cases"), Runner(Program([billet]))
+    cases = read_cases(table)
+    checked = check_at_once([case for case in cases if not case.goes_alone], runner)
+    for case in cases:
+
+        @check(case.name)
         def _() -> None:
-            ran = runner.run(text, expanded, options=options)
-            require_keys(keys, ran.ended.code, ran.said + ran.complained)
+            if not case.goes_alone:
+                require_keys(case.keys, *checked[case])
+                return
+            options = ["--check"] if case.is_check else []
+            ran = runner.run(scene_text(case.scene), case.edits, options=options)
+            require_keys(case.keys, ran.ended.code, ran.said + ran.complained)
 
     return check.finish()
 

@@ -33,7 +33,7 @@ from checks import (
 from edits import edit
 
 TEMPLATES = sorted((SHIPPED / "templates").glob("*.prm"))
-PARTS = {"drawing": 0.1, "rolling": 0.1, "impact": 0.25}  # of the time
+PARTS = {"drawing": 0.05, "rolling": 0.05, "impact": 0.1}  # of the time
 MAX_LINES = 45
 LISTS = "primitives materials elements loads surfaces friction integrators probes fields history".split()
 

@@ -27,9 +27,10 @@ ENERGIES = (
 
 
 def scene(name: str) -> str:
-    """Returns the text of a scene, with a subsection for output."""
+    """Returns the text of a scene, with a subsection for output, and without fields."""
     text = read_text(HERE / f"newcomers/{name}.prm")
-    return text if "\nsubsection Output\n" in text else text + "subsection Output\nend\n"
+    text = text if "\nsubsection Output\n" in text else text + "subsection Output\nend\n"
+    return text + "set Output/Format = none\n"
 
 
 def completed(name: str, edits: str = "") -> Run:
@@ -154,10 +155,12 @@ def _() -> None:
 
 
 TOO_EXACT = (
-    "General contact: Penetration tolerance = 1e-3 & + subsection Solver\\nset Force tolerance = 3e-4\\nend"
+    "General contact: Penetration tolerance = 1e-3 & + subsection Solver\\nset Force tolerance = 3e-4"
+    "\\nset Maximum iterations = 25\\nend"
     " & + subsection Contact pairs\\nsubsection strip on pad\\nset Body = strip\\nset Second body = pad\\n"
     "set Friction coefficient = 0.1\\nset Penetration tolerance = 1e-3\\nend\\nend"
-    " & punch / Motion: Translation = 0 ; -10*press ; 0 & Time stepping: Minimum step = 0.015"
+    " & punch / Motion: Translation = 0 ; -10*press ; 0"
+    " & Time stepping: + set Initial step = 0.04\\nset Minimum step = 0.03"
 )
 
 

@@ -91,31 +91,13 @@ def _() -> None:
     require(slope(rows[-1], 7) < slope(formed, 7) - 3, "the walls do not open")
 
 
-@check("the default penalty of a sheet between tools takes few iterations")
-def _() -> None:
-    rows = run_variant(
-        str(SHIPPED / "u_bend.prm"),
-        "default_penalty",
-        {
-            "General contact/Normal penalty": "",
-            "Bodies/strip/Mesh/Arguments": "132, 1 : 0, 0 : 132, 0.78",
-            "Bodies/strip/Mesh/Positions": "2*min(x, 9) + max(0, min(x, 99) - 9) + 2*max(0, x - 99) ; y ; z",
-            "Tools/punch/Motion/Translation": "0 ; -2*t ; 0",
-        },
-    )
-    pressed = [row for row in rows if row["time"] <= 1]
-    # If 10 E/h stays, nodes open and close in turn: it takes thousands.
-    iterations = sum(row["iterations"] for row in pressed)
-    require(iterations < 350, f"{iterations} iterations")
-    near("force of the holder", abs(pressed[-1]["holder.force_y"]), 35.0, 1e-2)
-
-
 def cup_draw_in(folder: str, r_values: tuple[float, float, float]) -> tuple[float, float, float]:
     """Draw-in at 0, 45 and 90 degrees to the rolling direction, after a fifth of the travel."""
     last = run_variant(
         str(SHIPPED / "cylindrical_cup.prm"),
         folder,
         {
+            "Bodies/blank/Mesh/Arguments": "24, 8, 1 : 0, 0, 0 : 24, 1, 1",
             "Bodies/blank/Material/r-values": ", ".join(map(str, r_values)),
             "Tools/holder/Motion/Removal time": "",
             "Tools/holder/Motion/Release time": "",
@@ -141,9 +123,13 @@ def _() -> None:
 
 @check("the corner of the square cup is drawn in as NUMISHEET'93 measured")
 def _() -> None:
-    last = run_variant(str(SHIPPED / "square_cup.prm"), "square_cup", {"Time stepping/End time": 1.5e-3})[-1]
+    # Heavier, whose kinetic energy at the end is 1e-3 of the work, it takes less than half the steps.
+    heavy = {"Explicit dynamics/Mass scaling step": 2e-7}
+    last = run_variant(
+        str(SHIPPED / "square_cup.prm"), "square_cup", {**heavy, "Time stepping/End time": 1.5e-3}
+    )[-1]
     near("travel of the punch", last["punch.travel_z"], -15.0, 1e-4)
-    # Mean of the laboratories, as in tests/benchmarks/square-cup.py. The scene is off by 0.2 %, without
+    # Mean of the laboratories, as in tests/benchmarks/square-cup.py. It is off by 0.9 %, without
     # friction by 7.5 %. The middle of the edge is no measure: -9.3 %, without friction 1.7 %.
     draw_in = math.hypot(last["corner.displacement_x"], last["corner.displacement_y"])
     near("draw-in along the diagonal", draw_in, 3.2, 0.04)

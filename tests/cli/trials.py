@@ -71,6 +71,7 @@ def main() -> int:
             text = read_text(file)
             if not re.search(r"^subsection Output$", text, re.MULTILINE):
                 text += "\nsubsection Output\nend\n"
+            text += "set Output/Format = none\n"
             require_results(results, runner.run(text))
 
     return check.finish()

@@ -19,7 +19,8 @@
 
 /// A fuzz target defines corpus(), sound files by their names, and judge(), which reads a file, and ends with
 /// BILLET_FUZZ_TARGET(NAME). It is
-/// - a test, which damages each file of the corpus some hundred times, the same on every machine;
+/// - a test, which damages each file of the corpus 400 times, the same on every machine, or n times with
+/// BILLET_FUZZ_TARGET_OF(NAME, n);
 /// - with arguments N [SEED] behind its name, one that does so N times and prints how many are refused and
 /// the maximum time; doc/results/damaged-files.md has these of all targets;
 /// - with the argument --corpus FOLDER, one that writes the corpus, for other fuzzers;
@@ -106,7 +107,8 @@ void fuzz(const std::string &name, const std::string &sound, const unsigned int 
 
 /// The test of a target.
 template <class Judge>
-void fuzz_files(const std::map<std::string, std::string> &corpus, const Judge &judge_file) {
+void fuzz_files(const std::map<std::string, std::string> &corpus, const Judge &judge_file,
+                const unsigned int usual_n) {
   const std::vector<std::string> &given = arguments();
   if (given.size() == 2 && given[0] == "--corpus") {
     std::filesystem::create_directories(given[1]);
@@ -114,7 +116,7 @@ void fuzz_files(const std::map<std::string, std::string> &corpus, const Judge &j
       write_bytes(given[1] + "/" + name, bytes);
     return;
   }
-  const unsigned int n = given.empty() ? 400 : static_cast<unsigned int>(std::stoul(given[0]));
+  const unsigned int n = given.empty() ? usual_n : static_cast<unsigned int>(std::stoul(given[0]));
   Damage damage(given.size() < 2 ? 1 : static_cast<unsigned int>(std::stoul(given[1])));
   for (const auto &[name, bytes] : corpus)
     fuzz(name, bytes, n, damage, !given.empty(), judge_file);
@@ -123,7 +125,7 @@ void fuzz_files(const std::map<std::string, std::string> &corpus, const Judge &j
 } // namespace billet::testing
 
 #ifdef BILLET_FUZZ
-#define BILLET_FUZZ_TARGET(name)                                                                             \
+#define BILLET_FUZZ_TARGET_OF(name, n)                                                                       \
   extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *const data, const std::size_t size) {            \
     const std::string bytes(reinterpret_cast<const char *>(data), size);                                     \
     if (judge(bytes) == billet::testing::Outcome::unsound)                                                   \
@@ -131,8 +133,9 @@ void fuzz_files(const std::map<std::string, std::string> &corpus, const Judge &j
     return 0;                                                                                                \
   }
 #else
-#define BILLET_FUZZ_TARGET(name)                                                                             \
-  BILLET_TEST(name) { billet::testing::fuzz_files(corpus(), judge); }
+#define BILLET_FUZZ_TARGET_OF(name, n)                                                                       \
+  BILLET_TEST(name) { billet::testing::fuzz_files(corpus(), judge, n); }
 #endif
+#define BILLET_FUZZ_TARGET(name) BILLET_FUZZ_TARGET_OF(name, 400)
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The billet under the drop hammer: implicit and explicit dynamics agree in how deep it goes, in the force
-// and in where the energy stays, and the energies balance.
+// The billet, on a coarser mesh, under half of the drop hammer: implicit and explicit dynamics agree in how
+// deep it goes, in the force and in where the energy stays, and the energies balance.
 #include "scene_run.h"
 
 #include "explicit_run.h"
@@ -32,13 +32,16 @@ void inspect(const SolutionState &state, Impact &impact) {
 
 BILLET_MPI_TEST(drop_hammer) {
   parameters::Scene scene = testing::read_shipped_scene("drop_hammer.prm");
+  scene.bodies[0].mesh.n_layers = 5;
+  scene.tools[1].motion.inertia = 0.05;
+  scene.time_stepping.end_time = 5e-3;
   Impact impact, quick;
   testing::SceneRun run(scene);
   run.finish([&](const NewtonReport &) { inspect(run.problem.state(), impact); });
   scene.time_stepping.scheme = parameters::TimeStepping::Scheme::explicit_dynamics;
   testing::ExplicitRun explicit_run(scene);
   explicit_run.finish(4e-5, [&] { inspect(explicit_run.state(), quick); });
-  const double energy = 0.5 * 0.1 * 5000. * 5000.;
+  const double energy = 0.5 * 0.05 * 5000. * 5000.;
   if (std::getenv("SHOW") != nullptr)
     for (const Impact &b : {impact, quick})
       std::cout << b.depth << " " << b.force << " " << b.drift / energy << " " << b.energies.plastic / energy

@@ -94,6 +94,11 @@ void test_unequal(const std::string &name, const parameters::ContactPair::Penalt
 
 BILLET_MPI_TEST(explicit_two_bars) {
   using Facets = FacetMethod;
+  if (testing::n_ranks() > 1) { // the meshes that do not match, by both passes
+    test(1., 3, true, Facets::planed);
+    test(1., 3, false, Facets::bilinear);
+    return;
+  }
   for (const double penalty : {0.1, 1., 10.})
     for (const unsigned int across : {2, 3})
       test(penalty, across, true, Facets::planed);

@@ -100,7 +100,8 @@ BILLET_MPI_TEST(force_control) {
 
   parameters::Scene smooth = billet;
   smooth.pairs[0].friction = nullptr;
-  press("smooth billet", smooth);
+  if (testing::n_ranks() == 1)
+    press("smooth billet", smooth);
 
   // A block, stuck to a plane that a moment turns under it.
   parameters::Scene block = parameters::Scene::read(std::string(SOURCE_DIR) + "/block_on_plane.prm");
@@ -121,6 +122,9 @@ BILLET_MPI_TEST(force_control) {
   const Curve angles = record(follows);
   check("there is a moment", std::abs(twist.moments.back()) > 1e-3);
   check("a moment turns the plane by the same angle", max_difference(angles.angles, twist.angles), 1e-6);
+
+  if (testing::n_ranks() > 1)
+    return; // the same unknowns
 
   // A holder that has some way to go before it touches.
   parameters::Scene apart = smooth;

@@ -68,13 +68,12 @@ BILLET_MPI_TEST(frictionless_upsetting) {
   check("closed form at 64 %: 877.02 kN", std::abs(closed_form(0.64) - 877.02e3), 5.);
 
   const double paper = 3.5e5;
-  for (const auto &variant : {Variant{1, 5, 5, paper},
-                              {1, 5, 50, paper},
-                              {1, 5, 500, paper},
-                              {2, 10, 5, paper},
-                              {2, 10, 50, paper},
-                              {1, 3, 50, paper}}) {
+  double soft = 0.;
+  for (const auto &variant :
+       {Variant{1, 5, 20, paper}, {1, 5, 5, paper}, {2, 10, 5, paper}, {1, 3, 200, paper}}) {
     const auto errors = run(variant);
+    if (soft == 0.)
+      soft = errors[1];
     const std::string name = std::to_string(12 * (variant.refinements == 1 ? 1 : 4) * variant.layers) +
                              " elements, " + std::to_string(variant.steps) + " steps";
     check(name + ", 60 %", errors[0], 1e-3);
@@ -82,9 +81,8 @@ BILLET_MPI_TEST(frictionless_upsetting) {
     check(name + ", all elements alike", errors[2], 1e-6);
   }
   // The error is the penetration's, and falls with it.
-  const double soft = run({1, 5, 50, paper})[1];
-  const double hard = run({1, 5, 50, 10. * paper})[1];
-  const double hardest = run({1, 5, 50, 100. * paper})[1];
+  const double hard = run({1, 5, 20, 10. * paper})[1];
+  const double hardest = run({1, 5, 20, 100. * paper})[1];
   check("ten times the penalty, a tenth of the error", std::abs(hard / soft - 0.1), 0.01);
   check("a hundred times the penalty, a hundredth", std::abs(hardest / soft - 0.01), 0.005);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Hertz: a rigid sphere pressed into an elastic half-space without friction, at the default penalty, six
+// Hertz: a rigid sphere pressed into an elastic half-space without friction, at the default penalty, five
 // elements over the contact radius. With the effective modulus E* = E/(1 − ν²), travel d and radius R
 // (Johnson, Contact Mechanics, 1985, ch. 4)
 //   a² = R d,   F = 4/3 E* a³/R,   p = p_0 √(1 − r²/a²),   p_0 = 2 E* a/(π R).
@@ -76,7 +76,7 @@ void write_mesh(const std::string &name, const std::vector<double> &grid) {
 } // namespace
 
 BILLET_MPI_TEST(hertz) {
-  write_mesh("half_space.msh", make_grid(6));
+  write_mesh("half_space.msh", make_grid(5));
   std::filesystem::copy_file(std::string(SOURCE_DIR) + "/hertz.prm", "hertz.prm",
                              std::filesystem::copy_options::overwrite_existing);
   const auto scene_parameters = parameters::Scene::read("hertz.prm");

@@ -15,7 +15,10 @@ using billet::testing::SceneRun;
 
 BILLET_MPI_TEST(implicit_sliding) {
   constexpr double friction = 0.25, gravity = 4000., full_weight = 2.5e-3;
-  SceneRun run(testing::read_test_scene("implicit_sliding.prm"));
+  parameters::Scene scene = testing::read_test_scene("implicit_sliding.prm");
+  scene.bodies[0].initial_velocity.value = {"3.5", "0", "0"};
+  scene.time_stepping.end_time = 5e-3;
+  SceneRun run(scene);
   const SolutionState &state = run.problem.state();
   const double initial = state.energies.kinetic;
   double start = 0., speed = 0., drift = 0.;
@@ -36,7 +39,7 @@ BILLET_MPI_TEST(implicit_sliding) {
     std::cout << speed << " " << way << " " << way / (speed * speed / (2. * friction * gravity)) << " "
               << state.energies.kinetic / initial << " " << state.energies.friction / initial << " "
               << state.energies.numerical / initial << " " << drift << " " << run.n_iterations << std::endl;
-  check("slides fast where it is measured", speed > 3.);
+  check("slides fast where it is measured", speed > 1.5);
   check("way", std::abs(way / (speed * speed / (2. * friction * gravity)) - 1.), 0.005);
   check("comes to rest", state.energies.kinetic / initial, 1e-3);
   check("friction takes the energy", std::abs(state.energies.friction / initial - 1.), 0.005);

@@ -16,14 +16,16 @@ using dealii::Tensor;
 
 namespace {
 
-void test(const unsigned int across) {
+void test(const unsigned int left_across, const unsigned int right_across) {
   parameters::Scene scene = testing::read_test_scene("two_bars.prm");
-  const std::string n = std::to_string(across);
-  scene.bodies[0].mesh.arguments = "40, 2, 2 : -0.201, 0, 0 : -0.001, 0.02, 0.02 : true";
-  scene.bodies[1].mesh.arguments = "40, " + n + ", " + n + " : 0, 0, 0 : 0.2, 0.02, 0.02 : true";
+  const auto mesh = [](const unsigned int across) {
+    return "24, " + std::to_string(across) + ", " + std::to_string(across);
+  };
+  scene.bodies[0].mesh.arguments = mesh(left_across) + " : -0.201, 0, 0 : -0.001, 0.02, 0.02 : true";
+  scene.bodies[1].mesh.arguments = mesh(right_across) + " : 0, 0, 0 : 0.2, 0.02, 0.02 : true";
   scene.time_stepping.scheme = parameters::TimeStepping::Scheme::implicit_dynamics;
   scene.implicit_dynamics.error_tolerance = 0.;
-  testing::set_fixed_steps(scene, 120);
+  testing::set_fixed_steps(scene, 72);
   SceneRun bars(scene);
   const SolutionState &state = bars.problem.state();
   const double momentum = state.momentum[0], energy = state.energies.initial;
@@ -39,7 +41,7 @@ void test(const unsigned int across) {
     std::cout << left << ", " << right << ", lost " << lost << " drift " << drift << " force " << force
               << " numerical " << state.energies.numerical / energy << " iterations " << bars.n_iterations
               << std::endl;
-  std::cout << (across == 2 ? "matching:" : "not matching:") << std::endl;
+  std::cout << (left_across == right_across ? "matching:" : "not matching:") << std::endl;
   check("  the left one is at rest", left.norm() / 100., 0.02);
   check("  the right one flies", (right - Tensor<1, 3>({100., 0., 0.})).norm() / 100., 0.02);
   check("  with half the force of the wall", std::abs(force / 0.8e6 - 1.), 0.1);
@@ -51,8 +53,8 @@ void test(const unsigned int across) {
 } // namespace
 
 BILLET_MPI_TEST(implicit_two_bars) {
-  test(2);
-  test(3);
+  test(1, 1);
+  test(2, 3);
 }
 
 } // namespace implicit_two_bars_test

@@ -111,16 +111,20 @@ void test_transfer(const unsigned int from, const unsigned int to, const std::st
 } // namespace
 
 BILLET_MPI_TEST(points_through) {
-  test_springback();
+  const bool is_alone = testing::n_ranks() == 1;
+  if (is_alone)
+    test_springback();
   parameters::Scene scene = read(5);
   testing::test_going_on<testing::ImplicitSolutionRun>(
-      "Five points", scene, {0.8, 1.4},
+      "Five points", scene, is_alone ? std::vector<double>{0.8, 1.4} : std::vector<double>{0.8},
       [](auto &run, const double time, testing::History &history) { run.run(time, history); });
+  test_transfer(7, 2, "1");
+  if (!is_alone)
+    return;
   testing::set_elasticity(scene.bodies[0].material, "hypoelastic");
   testing::test_going_on<testing::ImplicitSolutionRun>(
       "Five points, hypoelastic", scene, {0.8},
       [](auto &run, const double time, testing::History &history) { run.run(time, history); });
-  test_transfer(7, 2, "1");
   test_transfer(2, 7, "1");
   test_transfer(3, 5, "1");
   test_transfer(5, 5, "-1");

@@ -10,7 +10,9 @@
 
 #include "../testing.h"
 
+#include <chrono>
 #include <functional>
+#include <thread>
 
 namespace billet::testing {
 
@@ -87,7 +89,22 @@ inline void set_fixed_steps(parameters::Scene &parameters, const unsigned int n)
   parameters.time_stepping.initial_step = parameters.time_stepping.end_time / n;
 }
 
+inline unsigned int n_ranks() { return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); }
 inline bool is_first_rank() { return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0; }
+
+/// The first `n` ranks do this together, the others wait and leave them the processor.
+template <class Run> void on_ranks(const unsigned int n, const Run &run) {
+  const bool takes_part = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) < n;
+  MPI_Comm some = MPI_COMM_NULL;
+  MPI_Comm_split(MPI_COMM_WORLD, takes_part ? 0 : 1, 0, &some);
+  if (takes_part)
+    run(some);
+  MPI_Comm_free(&some);
+  MPI_Request all = MPI_REQUEST_NULL;
+  MPI_Ibarrier(MPI_COMM_WORLD, &all);
+  for (int has_come = 0; has_come == 0; MPI_Test(&all, &has_come, MPI_STATUS_IGNORE))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
 
 } // namespace billet::testing
 

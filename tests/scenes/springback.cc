@@ -164,10 +164,14 @@ BILLET_MPI_TEST(springback) {
     reference = deflection(rest.discretization, rest.problem.state().displacements);
   }
   for (const std::string name : {"Hencky", "neo-Hookean", "hypoelastic"}) {
+    if (name != "Hencky" && testing::n_ranks() > 1) // laws know nothing of ranks
+      continue;
     parameters::Scene scene = bending;
     testing::set_elasticity(scene.bodies[0].material, name);
     test(name, scene, reference, false);
   }
+  if (testing::n_ranks() > 1)
+    return;
   parameters::Scene scene = bending;
   scene.bodies[0].element.value.type = BrickElement::one_point;
   test("One point", scene, reference, true);
