@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Facets against the surface that a scene names for them: of a cylinder, a cone, a barrel and a sphere they
 // do not tilt; if the axis is off by d, the largest tilt around a cylinder of radius R is d/R.
-#include "billet/contact/faceted_curvature.h"
 #include "billet/contact/surface_correction.h"
+#include "billet/contact/faceted_curvature.h"
 
 #include "../testing.h"
 
