@@ -11,6 +11,7 @@
 #include "billet/run/launch.h"
 #include "billet/run/new_scene.h"
 #include "billet/run/preview.h"
+#include "billet/run/serve.h"
 #include "billet/run/target_mesh.h"
 #include "billet/run/type_lists.h"
 #include "billet/shipped.h"
@@ -284,6 +285,23 @@ void print_errors(const billet::DiagnosticList &errors, const bool is_first) {
       std::cerr << error.text() << std::endl;
 }
 
+/// Lets children of this process run what is asked for if the only argument is --serve, see
+/// billet::serve_runs(). The arguments of a child are then those of its run.
+std::optional<int> serve(std::vector<std::string> &arguments) {
+  if (arguments != std::vector<std::string>{"--serve"})
+    return {};
+  try {
+    const auto run = billet::serve_runs();
+    if (!run)
+      return static_cast<int>(ExitCode::success);
+    arguments = *run;
+  } catch (const billet::InputError &error) {
+    print_errors(error.diagnostics(), true);
+    return static_cast<int>(ExitCode::bad_input);
+  }
+  return {};
+}
+
 /// Lets a child of this process run each scene if the arguments name several, see
 /// billet::run_each(). The arguments of a child are then those of its scene.
 std::optional<int> run_each(std::vector<std::string> &arguments) {
@@ -514,11 +532,13 @@ ExitCode perform(const CommandLine &command, const bool is_first, billet::Consol
 
 int main(int argc, char *argv[]) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (const auto code = serve(arguments))
+    return *code;
   if (const auto code = run_each(arguments))
     return *code;
   if (const auto code = billet::launch(arguments))
     return *code;
-  billet::prepare_for_one_process();
+  const billet::ProcessAlone alone;
   // Only the program's name is passed on: PETSc, if deal.II has it, would interpret --check as its
   // own option. One thread for each rank: more would be idle.
   int n_for_libraries = 1;

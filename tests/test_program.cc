@@ -2,6 +2,7 @@
 // The program of a folder's tests: runs the one that its first argument names.
 #include "checks.h"
 
+#include "billet/run/launch.h"
 #include "billet/usage.h"
 
 #include <deal.II/base/mpi.h>
@@ -69,9 +70,12 @@ int main(int argc, char *argv[]) {
     return 2;
   }
   billet::testing::arguments().assign(argv + 2, argv + argc);
+  std::optional<billet::ProcessAlone> alone;
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
-  if (chosen->uses_mpi)
+  if (chosen->uses_mpi) {
+    alone.emplace();
     mpi.emplace(argc, argv, 1);
+  }
   chosen->run();
   print_numbers(chosen->uses_mpi);
   return billet::testing::exit_code();

@@ -170,12 +170,25 @@ std::optional<int> launch(const std::vector<std::string> &arguments) {
   }
 }
 
-void prepare_for_one_process() {
+ProcessAlone::ProcessAlone() {
   if (is_launched())
     return;
   constexpr int keep = 0; // what the user has set
   setenv("OMPI_MCA_pml", "ob1", keep);
   setenv("OMPI_MCA_btl", "self", keep);
+  std::error_code none;
+  std::string folder = std::filesystem::temp_directory_path(none) / "billet.XXXXXX";
+  if (mkdtemp(folder.data()) == nullptr)
+    return;
+  folder_ = folder;
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
+  setenv("OMPI_MCA_orte_tmpdir_base", folder_.c_str(), keep);
+}
+
+ProcessAlone::~ProcessAlone() {
+  std::error_code none;
+  if (!folder_.empty())
+    std::filesystem::remove_all(folder_, none);
 }
 
 int report_exit_code(const int code, const bool is_first) {

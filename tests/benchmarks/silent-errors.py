@@ -5,6 +5,7 @@ warning."""
 from __future__ import annotations
 
 import argparse
+import csv
 import hashlib
 import re
 import sys
@@ -14,7 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from billet_runs import ROOT, publish, table  # finds billet_tools, too
-from silent_errors_runs import OUTCOMES, SECONDS, Case, Runner
+from silent_errors_runs import OUTCOMES, SECONDS, Case, Runner, last_force
 from billet_tools.scene import scene_text
 from silent_errors_scenes import ABOUT, FAMILIES
 
@@ -32,6 +33,7 @@ parser.add_argument(
     "--folder", default=str(ROOT / "results/silent-errors"), help="where runs are kept (%(default)s)"
 )
 parser.add_argument("--only", default="", help="runs whose name has this in it")
+parser.add_argument("--outcomes", metavar="FILE", help="write outcomes and forces to this table")
 options = parser.parse_args()
 options.large, options.ranks = False, 1
 
@@ -81,6 +83,15 @@ order = sorted(range(len(cases)), key=lambda i: hashlib.sha256(cases[i].name.enc
 with ThreadPoolExecutor(options.jobs) as pool:
     found = dict(zip(order, pool.map(judged, (cases[i] for i in order))))
 results = [found[i] for i in range(len(cases))]
+
+if options.outcomes:
+    with open(options.outcomes, "w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(["scene", "outcome", "force"])
+        for case, outcome, _, _ in results:
+            force = f"{last_force(runner.run(case.scene)):.10g}"
+            writer.writerow([f"{case.family}: {case.name}", outcome, force])
+    sys.exit(0)
 
 rows = []
 for family in families:

@@ -212,6 +212,14 @@ def last(run: Kept) -> str:
     return f"{times[-1]:.3g}" if len(times) else "0"
 
 
+def last_force(run: Kept) -> float:
+    """The largest component of a force at the end."""
+    return max(
+        (abs(float(values[-1])) for name, values in run.history.items() if "force_" in name and len(values)),
+        default=0.0,
+    )
+
+
 def means(fields: Fields) -> dict[str, dict[str, list[float]]]:
     """Mean displacement and velocity of each body, in the order of their numbers; of elements of equal
     size."""

@@ -12,22 +12,21 @@ import resource
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 from typing import Callable, Mapping, NamedTuple, Sequence
 
-from edits import edit, lines_of
-from fork_server import ForkServer
-
 HERE = Path(__file__).resolve().parent
 SHIPPED = HERE.parents[1] / "prm"
+sys.path.insert(0, str(HERE.parents[1] / "tools"))
+from billet_tools.fork_server import ForkServer, Starter  # noqa: E402
+from edits import edit, lines_of  # noqa: E402
 
 # Sanitizers take their time, and that of addresses takes all of them for itself.
 IS_SANITIZED = "ASAN_OPTIONS" in os.environ
 TIME_LIMIT = 900 if IS_SANITIZED else 60  # seconds; ranks that wait for each other fail
 # Of Open MPI, for all that these scripts start: ranks that wait let others compute.
-# (ess_singleton_isolated would save the daemon of a process alone, but all such processes then share a folder
-# in /tmp, and writing files in parallel fails.)
 os.environ.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
 # bytes of addresses for each process; MPI's libraries alone want a good part of it
 MEMORY_LIMIT = 8_000_000 * 1024
@@ -162,10 +161,25 @@ def limit_memory() -> None:
 
 @functools.cache
 def fork_server(program: str) -> ForkServer | None:
-    """Returns the server beside a program; none if it has none, or where sanitizers want processes of their
-    own."""
-    path = Path(program).parent / "billet-fork-server"
-    return ForkServer(path, limit_memory) if path.is_file() and not IS_SANITIZED else None
+    """Returns a process that runs this program in its children; none where it cannot, or where sanitizers want
+    processes of their own."""
+    if IS_SANITIZED or not os.path.isabs(program) or Path(program).name != "billet":
+        return None
+    server = ForkServer(program, limit_memory)
+    return server if server.serves else None
+
+
+def wait_for(server: Starter, process: int) -> int:
+    """Returns the exit code of a run as subprocess does, and 124 or 137 out of time as the command timeout
+    does."""
+    for limit, number in ((TIME_LIMIT, signal.SIGTERM), (5, signal.SIGKILL)):
+        try:
+            code = server.wait(limit)[0]
+            return code if number == signal.SIGTERM else 124
+        except TimeoutError:
+            os.killpg(process, number)
+    server.wait()
+    return 137
 
 
 def run(*command: str, file_limit: int | None = None, environment: Mapping[str, str] | None = None) -> Ended:
@@ -184,7 +198,7 @@ def run(*command: str, file_limit: int | None = None, environment: Mapping[str, 
     # Not pipes: what a process that is killed leaves behind would keep them open.
     with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
         if server is not None:
-            returned = server.run(command, output, errors, TIME_LIMIT)
+            returned = wait_for(server, server.start(command[1:], os.getcwd(), output, errors))
         else:
             returned = subprocess.run(
                 ["timeout", "--kill-after=5", str(TIME_LIMIT), *command],

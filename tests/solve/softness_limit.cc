@@ -83,91 +83,10 @@ void check_what_is_given_up() {
   check("and after a restart", other.unsettled() == limit.unsettled());
 }
 
-ContactSprings springs_of(const double force, const double held, const double friction = 0.,
-                          const double held_tangentially = 0.) {
-  ContactSprings springs;
-  springs.normal.force = force;
-  springs.normal.held = held;
-  springs.tangential.force = friction;
-  springs.tangential.held = held_tangentially;
-  return springs;
-}
-
-/// The multiple of the allowed part that is missing once an augmentation has changed the force by `ratio` of
-/// what springs held, in a former step.
-double excess_after(const double ratio, const double held_then, const ContactSprings &now) {
-  SoftnessLimit limit({SoftnessLimit::Rule::general});
-  limit.learn({springs_of(1., held_then)},
-              {{SoftnessLimit::Change{ratio * held_then, 1.}, SoftnessLimit::Change{}}});
-  limit.begin();
-  return limit.excess({now})[0];
-}
-
-/// Whether a is b but for round-off.
-bool is(const double a, const double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); }
-
-/// (L7) with numbers.
-void check_formula() {
-  SoftnessLimit limit({SoftnessLimit::Rule::general});
-  // Of a force of 1, 0.002 may be missing. All augmentations add 5 times what springs hold, as far as known.
-  check("springs that hold a fifth of 0.002 meet the limit", is(limit.excess({springs_of(1., 4e-4)})[0], 1.));
-  check("those that hold half of the force count once",
-        is(limit.excess({springs_of(1., 0.52)})[0], 260.) &&
-            is(limit.excess({springs_of(1., 0.48)})[0], 1200.));
-  // The geometric series ρ + ρ² + ...
-  check("half of what they hold is granted: it is missing",
-        is(excess_after(0.5, 0.1, springs_of(1., 2e-3)), 1.));
-  check("three quarters: three times as much", is(excess_after(0.75, 0.1, springs_of(1., 2e-3)), 3.));
-  check("all: five times", is(excess_after(1., 0.1, springs_of(1., 2e-3)), 5.));
-  check("what is below 1e-4 of the force shows nothing",
-        is(excess_after(0.5, 1.1e-4, springs_of(1., 2e-3)), 1.) &&
-            is(excess_after(0.5, 0.9e-4, springs_of(1., 2e-3)), 5.));
-  limit.learn({springs_of(1., 0.1)}, {{SoftnessLimit::Change{0.1, 1e-3}, SoftnessLimit::Change{}}});
-  check("within the step it is no more than the last augmentation changed",
-        is(limit.excess({springs_of(1., 0.1)})[0], 0.5));
-
-  SoftnessLimit two({SoftnessLimit::Rule::general, SoftnessLimit::Rule::general});
-  check("a pair counts with a hundredth of the largest force at least",
-        is(two.excess({springs_of(100., 0.), springs_of(1e-3, 2e-4)})[1], 0.5));
-  SoftnessLimit sticks({SoftnessLimit::Rule::general});
-  check("friction with a fiftieth of the pressure",
-        is(sticks.excess({springs_of(50., 0., 0., 2e-4)})[0], 0.5));
-  check("and in its own proportion where it is more",
-        is(sticks.excess({springs_of(50., 0., 10., 2e-3)})[0], 0.5));
-  check("but not what iterations do not resolve: 0.01 of a pressure of 50",
-        is(sticks.excess({springs_of(50., 0., 10., 2e-3)}, 1.9e-4)[0], 0.5) &&
-            sticks.excess({springs_of(50., 0., 10., 2e-3)}, 2.1e-4)[0] == 0.);
-  // Friction of 1: slip has used half of its 0.002, then all.
-  SoftnessLimit slips({SoftnessLimit::Rule::general});
-  slips.commit({springs_of(1., 0., 1., 1e-3)});
-  slips.begin();
-  check("slip of former steps takes from what is allowed",
-        is(slips.excess({springs_of(1., 0., 1., 1e-4)})[0], 0.5));
-  slips.commit({springs_of(1., 0., 1., 0.1)});
-  check("a tenth of it is left", is(slips.excess({springs_of(1., 0., 1., 2e-5)})[0], 0.5));
-}
-
-/// The multiple of the allowed part that is missing in a sheet, whose springs hold this part of the force and
-/// of which an augmentation has added three quarters to it.
-double excess_of_sheet(const double held) {
-  SoftnessLimit limit({SoftnessLimit::Rule::sheet});
-  limit.learn({springs_of(1., held)}, {{SoftnessLimit::Change{held, 0.75 * held}, SoftnessLimit::Change{}}});
-  return limit.excess({springs_of(1., held)})[0];
-}
-
-/// As much as that, if it is half of a geometric series; three times as much, if it is three quarters.
-void check_sheets() {
-  check("augmentations of a sheet show its stiffness if springs hold a hundredth of the force",
-        is(excess_of_sheet(0.0102), 3. * 0.75 * 0.0102 / 0.002) &&
-            is(excess_of_sheet(0.0098), 0.75 * 0.0098 / 0.002));
-}
-
 } // namespace
 
 BILLET_TEST(softness_limit) {
   check_what_is_given_up();
-  check_formula();
-  check_sheets();
   for (const double K : {0.3, 0.1, 1e-2, 1e-3, 1e-5})
     for (const unsigned int n_steps : {1U, 10U, 100U}) {
       const std::string name = "K/k = " + std::to_string(K) + ", " + std::to_string(n_steps) + " steps: ";

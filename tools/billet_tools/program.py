@@ -11,15 +11,17 @@ import subprocess
 import tempfile
 import threading
 import time
+from contextlib import contextmanager
 from functools import cached_property
 from json import loads
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, Iterator, Sequence
 
 from . import UserError
+from .fork_server import Starter, starter_of
 from .kept import hash_of_file
 
-# One rank, without Open MPI's daemon and other threads: half of the time of a tiny scene.
+# One rank, without Open MPI's daemon and other threads; programs of this source need no such advice.
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
 COMPLETED = (0, 6, 7)  # exit codes of whole runs: no complaint, warnings as errors, a missed target error
 FAILED = 3  # the solution did
@@ -65,10 +67,23 @@ class Program:
         self.path, self.ranks = path, ranks
         if ranks > 1 and not shutil.which("mpirun"):
             raise UserError("mpirun was not found; --ranks 1 does without")
-        self.command = command_of(path, ranks)
+        self._starters: dict[int, list[Starter]] = {}  # that no thread uses, by numbers of ranks
         self.version = self._say("--version").strip()
         self.parameters = self._say("--print-parameters")
         self.fingerprint = hash_of_file(path)
+
+    @contextmanager
+    def starter(self, ranks: int | None = None) -> Iterator[Starter]:
+        """Gives what starts runs on so many ranks to one thread. The next one may use it again."""
+        free = self._starters.setdefault(ranks or self.ranks, [])
+        try:
+            one = free.pop()
+        except IndexError:
+            one = starter_of(command_of(self.path, ranks or self.ranks))
+        try:
+            yield one
+        finally:
+            free.append(one)
 
     def _say(self, *options: str) -> str:
         done = subprocess.run([str(self.path), *options], capture_output=True, text=True)
@@ -94,17 +109,17 @@ class Program:
 
     def check(self, file: Path) -> tuple[int, dict[str, Any], str]:
         """Returns the exit code, what the scene is, and why it is refused, '' if it is not."""
-        done = subprocess.run(
-            [str(self.path), "--check", "--json", str(file)],
-            capture_output=True,
-            text=True,
-            env={**os.environ, **ALONE},
-        )
+        with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err, self.starter(1) as starter:
+            starter.start(["--check", "--json", str(file)], Path.cwd(), out, err)
+            code = starter.wait()[0]
+            out.seek(0)
+            err.seek(0)
+            said, complained = out.read().decode(), err.read().decode().strip()
         try:
-            scene = loads(done.stdout)
+            scene = loads(said)
         except ValueError:
-            return done.returncode, {}, done.stderr.strip()
-        return done.returncode, scene, "" if scene["valid"] else scene["diagnostics"][-1]["message"]
+            return code, {}, complained
+        return code, scene, "" if scene["valid"] else scene["diagnostics"][-1]["message"]
 
 
 class Measured:
@@ -147,42 +162,41 @@ class Measured:
             raise SystemExit(f"billet ended with {self.code}: {self.stderr}")
 
 
-def end(process: subprocess.Popen[bytes], ranks: int) -> tuple[int, resource.struct_rusage]:
-    """Ends a process. mpirun is asked to end its ranks first; a program alone has nothing to tidy up."""
+def end(starter: Starter, process: int, ranks: int) -> float:
+    """Ends a run, and returns its seconds of the processor. mpirun is asked to end its ranks first; a program
+    alone has nothing to tidy up."""
     if ranks > 1:
-        process.send_signal(signal.SIGTERM)
-        for _ in range(100):
-            pid, status, usage = os.wait4(process.pid, os.WNOHANG)
-            if pid:
-                return status, usage
-            time.sleep(0.1)
-    os.killpg(process.pid, signal.SIGKILL)
-    return os.wait4(process.pid, 0)[1:]
+        os.kill(process, signal.SIGTERM)
+        try:
+            return starter.wait(10.0)[1]
+        except TimeoutError:
+            pass
+    os.killpg(process, signal.SIGKILL)
+    return starter.wait()[1]
 
 
 def execute(
-    command: Sequence[str], folder: Path, limit: float, stop: threading.Event, ranks: int = 1
+    starter: Starter,
+    arguments: Sequence[str],
+    folder: Path,
+    limit: float,
+    stop: threading.Event,
+    ranks: int = 1,
 ) -> tuple[int | None, float, float]:
-    """Runs a command until it ends, is late or is to stop. Returns the exit code (None: out of time),
-    core-seconds of the process and all its children, and seconds on the clock."""
+    """Runs with these arguments until the run ends, is late or is to stop. Returns the exit code (None: out
+    of time), core-seconds of the process and all its children, and seconds on the clock."""
     begin = time.monotonic()
+    code: int | None = None
     with open(folder / "stdout", "wb") as out, open(folder / "stderr", "wb") as err:
-        process = subprocess.Popen(
-            command, cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err, start_new_session=True
-        )
-    was_late, pause = False, 0.005
+        process = starter.start(arguments, folder, out, err)
     while True:
-        pid, status, usage = os.wait4(process.pid, os.WNOHANG)
-        if pid:
+        try:
+            code, seconds = starter.wait(0.1)
             break
-        was_late = time.monotonic() - begin > limit
-        if was_late or stop.is_set():
-            status, usage = end(process, ranks)
-            break
-        time.sleep(pause)
-        pause = min(0.1, 1.2 * pause)
-    process.returncode = os.waitstatus_to_exitcode(status)  # it has been waited for
+        except TimeoutError:
+            if time.monotonic() - begin > limit or stop.is_set():
+                seconds = end(starter, process, ranks)
+                break
     if stop.is_set():
         raise Stopped
-    seconds = usage.ru_utime + usage.ru_stime
-    return None if was_late else process.returncode, seconds, time.monotonic() - begin
+    return code, seconds, time.monotonic() - begin

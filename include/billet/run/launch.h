@@ -30,10 +30,19 @@ bool is_launched();
 /// starts.
 std::optional<int> run_each(const std::vector<std::string> &scenes, std::size_t &scene);
 
-/// Lets a process that no launcher started begin MPI without networks: the search for these takes a
-/// third of the time of `billet --version`. To be called before MPI starts; other MPIs than Open
-/// MPI ignore it.
-void prepare_for_one_process();
+/// Lets a process that no launcher started run MPI without networks and without a daemon: these take
+/// two thirds of the time of `billet --version`. To be made before MPI starts, and to live until it
+/// has ended. Other MPIs than Open MPI ignore it.
+class ProcessAlone {
+public:
+  ProcessAlone();
+  ~ProcessAlone();
+  ProcessAlone(const ProcessAlone &) = delete;
+  ProcessAlone &operator=(const ProcessAlone &) = delete;
+
+private:
+  std::string folder_; ///< for files of MPI, which processes without a daemon cannot share
+};
 
 /// Returns the exit code of a process: `code`, or 0 if launch() reads the code from its file.
 /// `is_first`: on the first rank.

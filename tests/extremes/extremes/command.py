@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import csv
 import fnmatch
 import sys
 import time
@@ -14,6 +15,7 @@ from typing import Sequence
 from billet_tools import UserError
 from billet_tools.kept import hash_of
 from billet_tools.program import find_program
+from billet_tools.records import Record
 
 from . import laws, plan, report
 from .runner import OUTCOMES, Runner, read_kept
@@ -63,6 +65,9 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         "--report", metavar="FOLDER", help="write extremes.md to FOLDER/results and pictures to FOLDER/images"
     )
     p.add_argument(
+        "--outcomes", metavar="FILE", help="write outcomes and forces of what is kept to this table"
+    )
+    p.add_argument(
         "--before",
         metavar="FOLDER",
         help="where runs of an older version are kept: the report lists the scenes with another outcome",
@@ -99,6 +104,17 @@ def chosen(options: argparse.Namespace, runner: Runner) -> list[plan.Case]:
         i, n = (int(x) for x in options.part.split("/"))
         cases = cases[i - 1 :: n]
     return cases
+
+
+def write_outcomes(records: Sequence[Record], file: Path) -> None:
+    """Writes a table in CSV; numbers of scenes that did not end are empty."""
+    columns = ("steps", "iterations", "cuts", "force")
+    with open(file, "w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(["scene", "outcome", *columns])
+        for record in sorted(records, key=lambda record: str(record["name"])):
+            numbers = [f"{record[name]:.10g}" if name in record else "" for name in columns]
+            writer.writerow([record["name"], record["outcome"], *numbers])
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -160,6 +176,8 @@ def perform(options: argparse.Namespace) -> int:
         ", ".join(f"{counts[outcome]} {outcome}" for outcome in OUTCOMES if counts[outcome])
         + f"; {len(records)} scenes"
     )
+    if options.outcomes:
+        write_outcomes(records, Path(options.outcomes))
     if options.report:
         before = (
             [record for record in (read_kept(Path(options.before), case) for case in cases) if record]

@@ -10,12 +10,14 @@ import os
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import time
 import traceback
 from pathlib import Path
 from typing import Collection
 
+from billet_tools.fork_server import starter_of
 from billet_tools.kept import hash_of, hash_of_file, read_json, write_json
 from billet_tools.program import ALONE
 from billet_tools.records import Record, read_records, warnings_of
@@ -129,6 +131,13 @@ class Runner:
             :12
         ]
         self._references: dict[tuple[str, str], Result | None] = {}
+
+        def bounded() -> None:
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            # should nobody be left to watch it
+            resource.setrlimit(resource.RLIMIT_CPU, (int(self.at_most) + 60, int(self.at_most) + 70))
+
+        self._starter = starter_of([str(program)], bounded)
 
     def kept(self, case: Case) -> Record | None:
         return read_kept(self.folder, case)
@@ -246,6 +255,7 @@ class Runner:
             "cuts": float(result.history.get("total_cuts", [0])[-1]),
             "checks": len(found),
             "depth": invariants.deepest(result),
+            "force": max((float(abs(result.force(name)[-1]).max()) for name in result.named), default=0.0),
             "soft": bool(of(SOFT)) or invariants.deepest(result) > DEEP,
             "warnings": warnings_of(records),
             "errors": {f.name: f.error for f in found},
@@ -304,54 +314,40 @@ class Runner:
         if source is not None:
             (work / laws.LIBRARY).symlink_to(self._library(source))
 
-        def bounded() -> None:
-            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-            # should nobody be left to watch it
-            resource.setrlimit(resource.RLIMIT_CPU, (int(self.at_most) + 60, int(self.at_most) + 70))
+        with open(work / "stdout", "wb") as out, open(work / "stderr", "wb") as err:
+            process = self._starter.start(["scene.prm"], work, out, err, {**ALONE, "TMPDIR": str(work)})
+            hung, code, spent = self._watch(process, work / "results" / "history.csv")
+        return code, (work / "stderr").read_text(errors="replace"), hung, spent
 
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        with open(work / "stdout", "w") as out, open(work / "stderr", "w") as err:
-            process = subprocess.Popen(
-                [str(self.program), "scene.prm"],
-                cwd=work,
-                stdout=out,
-                stderr=err,
-                preexec_fn=bounded,
-                start_new_session=True,
-                env={**os.environ, **ALONE, "TMPDIR": str(work)},
-            )
-            try:
-                hung = self._watch(process, work / "results" / "history.csv")
-            finally:
-                if process.poll() is None:
-                    process.kill()
-                    process.wait()
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        return process.returncode, (work / "stderr").read_text(errors="replace"), hung, spent
-
-    def _watch(self, process: subprocess.Popen[bytes], history: Path) -> str:
-        """Waits for its end, or until it is worth no more waiting: says why. A step is accepted when the
+    def _watch(self, process: int, history: Path) -> tuple[str, int, float]:
+        """Waits for the end of the run, or until it is worth no more waiting, and ends it. Returns why
+        ('': it has ended), its exit code and its seconds of the processor. A step is accepted when the
         history grows."""
         size, last, last_seen, begin = -1, 0.0, time.monotonic(), time.monotonic()
-        while True:
-            try:
-                process.wait(0.02 * self.patience)
-                return ""
-            except subprocess.TimeoutExpired:
-                pass
-            spent, now = processor_seconds(process.pid), time.monotonic()
-            grown = history.stat().st_size if history.exists() else 0
-            if grown != size:
-                size, last, last_seen = grown, spent, now
-            # The machine may have more to do: on its clock there is ten times as much.
-            if spent > last + self.patience or now > last_seen + 10 * self.patience:
-                return (
-                    f"no step was accepted in {self.patience:g} s of the processor, after"
-                    f" {rows(history)} rows of the history"
-                )
-            if spent > self.at_most or now > begin + 10 * self.at_most:
-                return (
-                    f"not finished after {self.at_most:g} s of the processor, and {rows(history)} rows of the"
-                    " history"
-                )
+        hung = ""
+        try:
+            while not hung:
+                try:
+                    return ("", *self._starter.wait(0.02 * self.patience))
+                except TimeoutError:
+                    pass
+                spent, now = processor_seconds(process), time.monotonic()
+                grown = history.stat().st_size if history.exists() else 0
+                if grown != size:
+                    size, last, last_seen = grown, spent, now
+                # The machine may have more to do: on its clock there is ten times as much.
+                if spent > last + self.patience or now > last_seen + 10 * self.patience:
+                    hung = (
+                        f"no step was accepted in {self.patience:g} s of the processor, after"
+                        f" {rows(history)} rows of the history"
+                    )
+                elif spent > self.at_most or now > begin + 10 * self.at_most:
+                    hung = (
+                        f"not finished after {self.at_most:g} s of the processor, and {rows(history)} rows of"
+                        " the history"
+                    )
+        except BaseException:  # Ctrl-C
+            os.killpg(process, signal.SIGKILL)
+            raise
+        os.killpg(process, signal.SIGKILL)
+        return (hung, *self._starter.wait())

@@ -148,9 +148,10 @@ class Runner:
         work.mkdir(parents=True)
         (work / "scene.prm").write_text(text)
         try:
-            code, seconds, clock = execute(
-                self.program.command + ["scene.prm"], work, limit, self.stop, self.program.ranks
-            )
+            with self.program.starter() as starter:
+                code, seconds, clock = execute(
+                    starter, ["scene.prm"], work, limit, self.stop, self.program.ranks
+                )
         except Stopped:
             shutil.rmtree(work, ignore_errors=True)
             raise

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/serve.h"
+
+#include "billet/errors.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+namespace billet {
+
+namespace {
+
+constexpr int cannot_start = 126; // as of shells that cannot start a command
+constexpr std::size_t longest_request = std::size_t{1} << 20;
+
+struct RunRequest {
+  std::vector<std::string> words; ///< folder, variables, an empty word, arguments
+  std::array<int, 2> outputs{{-1, -1}};
+};
+
+struct RunEnd {
+  int status;
+  double seconds;
+};
+
+/// Returns false at the end of the requests.
+bool receive(RunRequest &request) {
+  std::vector<char> text(longest_request);
+  iovec part{text.data(), text.size()};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(2 * sizeof(int))> control{};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  const ssize_t size = recvmsg(STDIN_FILENO, &message, MSG_CMSG_CLOEXEC);
+  const cmsghdr *const attached = CMSG_FIRSTHDR(&message);
+  if (size <= 0 || attached == nullptr || attached->cmsg_type != SCM_RIGHTS)
+    return false;
+  std::memcpy(request.outputs.data(), CMSG_DATA(attached), sizeof request.outputs);
+  for (const char *word = text.data(); word < text.data() + size; word += request.words.back().size() + 1)
+    request.words.emplace_back(word);
+  return true;
+}
+
+/// Gives this process the folder, the environment and the outputs of a run. Returns its arguments.
+std::vector<std::string> become_run(const RunRequest &request) {
+  setpgid(0, 0);
+  const int nothing = open("/dev/null", O_RDONLY);
+  if (chdir(request.words.front().c_str()) != 0 || dup2(nothing, STDIN_FILENO) < 0 ||
+      dup2(request.outputs[0], STDOUT_FILENO) < 0 || dup2(request.outputs[1], STDERR_FILENO) < 0)
+    _exit(cannot_start);
+  auto word = request.words.begin() + 1;
+  for (; word != request.words.end() && !word->empty(); ++word) {
+    const auto equals = std::min(word->find('='), word->size());
+    setenv(word->substr(0, equals).c_str(), word->c_str() + std::min(equals + 1, word->size()), 1);
+  }
+  return {std::min(word + 1, request.words.end()), request.words.end()};
+}
+
+template <typename T> bool answer(const T &value) {
+  return send(STDIN_FILENO, &value, sizeof value, MSG_NOSIGNAL) > 0;
+}
+
+double seconds(const timeval &time) { return time.tv_sec + 1e-6 * time.tv_usec; }
+
+} // namespace
+
+std::optional<std::vector<std::string>> serve_runs() {
+  if (!answer(0))
+    throw InputError(
+        "command line: '--serve' finds no socket as standard input; allowed is what programs that "
+        "start many runs give it, such as billet-trade");
+  for (bool goes_on = true; goes_on;) {
+    RunRequest request;
+    if (!receive(request))
+      break;
+    const pid_t child = fork();
+    if (child == 0)
+      return become_run(request);
+    for (const int output : request.outputs)
+      close(output);
+    RunEnd end{cannot_start << 8, 0.};
+    rusage used{};
+    goes_on = answer(child);
+    while (child > 0 && wait4(child, &end.status, 0, &used) < 0 && errno == EINTR) {
+    }
+    end.seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
+    goes_on = goes_on && answer(end);
+  }
+  return {};
+}
+
+} // namespace billet

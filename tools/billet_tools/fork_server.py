@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Starts runs of billet: in children of a process that has loaded its libraries, `billet --serve`, or else as
+processes of their own."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import socket
+import struct
+import subprocess
+import time
+from pathlib import Path
+from typing import IO, Callable, Mapping, Sequence, Union
+
+
+class ForkServer:
+    """One process that serves, one run after the other. A program that cannot serve has none: `serves`."""
+
+    LONGEST = 1 << 19  # bytes of a request
+
+    def __init__(self, program: str | Path, restrict: Callable[[], None] | None = None) -> None:
+        """`restrict`: sets limits of the process, which its children inherit."""
+        self._socket, its_socket = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        with its_socket:
+            # symbols are bound once for all runs
+            self._process = subprocess.Popen(
+                [program, "--serve"],
+                stdin=its_socket.fileno(),
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                preexec_fn=restrict,
+                env={**os.environ, "LD_BIND_NOW": "1"},
+                start_new_session=True,  # Ctrl-C is of who asks for runs
+            )
+        self.serves = self._receive("i", None) is not None
+        atexit.register(self.close)
+
+    def close(self) -> None:
+        """Ends the server, once its run has ended."""
+        self._socket.close()
+        self._process.wait()
+
+    def start(
+        self,
+        arguments: Sequence[str],
+        folder: str | Path,
+        output: IO[bytes],
+        errors: IO[bytes],
+        environment: Mapping[str, str] | None = None,
+    ) -> int:
+        """Starts a run in a folder, with these variables of the environment set. Returns the number of its
+        process, which is that of its group."""
+        variables = [f"{name}={value}" for name, value in (environment or {}).items()]
+        text = "".join(word + "\0" for word in (str(folder), *variables, "", *arguments))
+        request = text.encode("utf-8", "surrogateescape")
+        if len(request) > self.LONGEST:
+            raise ValueError(f"a request of {len(request)} bytes")
+        socket.send_fds(self._socket, [request], [output.fileno(), errors.fileno()])
+        found = self._receive("i", None)
+        if found is None:
+            raise RuntimeError("the server has ended")
+        return int(found[0])
+
+    def wait(self, seconds: float | None = None) -> tuple[int, float]:
+        """Waits for the run, and no longer than that (TimeoutError). Returns its exit code as subprocess
+        does, and its seconds of the processor."""
+        found = self._receive("id", seconds)
+        if found is None:
+            raise RuntimeError("the server has ended")
+        return os.waitstatus_to_exitcode(int(found[0])), float(found[1])
+
+    def _receive(self, form: str, time_limit: float | None) -> tuple[float, ...] | None:
+        """Returns the numbers of an answer; None if there is no server."""
+        self._socket.settimeout(time_limit)
+        try:
+            answer = self._socket.recv(struct.calcsize(form))
+        except ConnectionError:
+            return None
+        return struct.unpack(form, answer) if answer else None
+
+
+class OwnProcesses:
+    """Starts each run as a process of its own, one after the other: a program that cannot serve, or several
+    ranks. Same functions as ForkServer."""
+
+    def __init__(self, command: Sequence[str], restrict: Callable[[], None] | None = None) -> None:
+        """`command`: the program, behind the command that starts its ranks if there is one."""
+        self._command, self._restrict = list(command), restrict
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def close(self) -> None:
+        """Nothing is left behind a run."""
+
+    def start(
+        self,
+        arguments: Sequence[str],
+        folder: str | Path,
+        output: IO[bytes],
+        errors: IO[bytes],
+        environment: Mapping[str, str] | None = None,
+    ) -> int:
+        self._process = subprocess.Popen(
+            [*self._command, *arguments],
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=errors,
+            preexec_fn=self._restrict,
+            env={**os.environ, **(environment or {})},
+            start_new_session=True,
+        )
+        return self._process.pid
+
+    def wait(self, seconds: float | None = None) -> tuple[int, float]:
+        if self._process is None:
+            raise RuntimeError("no run was started")
+        begin, pause = time.monotonic(), 0.005
+        while True:
+            number, status, usage = os.wait4(self._process.pid, 0 if seconds is None else os.WNOHANG)
+            if number:
+                self._process.returncode = os.waitstatus_to_exitcode(status)  # it has been waited for
+                return self._process.returncode, usage.ru_utime + usage.ru_stime
+            if seconds is not None and time.monotonic() - begin > seconds:
+                raise TimeoutError
+            time.sleep(pause)
+            pause = min(0.1, 1.2 * pause)
+
+
+Starter = Union[ForkServer, OwnProcesses]
+
+
+def starter_of(command: Sequence[str], restrict: Callable[[], None] | None = None) -> Starter:
+    """Returns what starts runs of a command: a program, behind the command that starts its ranks if there is
+    one."""
+    if len(command) == 1:
+        server = ForkServer(command[0], restrict)
+        if server.serves:
+            return server
+        server.close()
+    return OwnProcesses(command, restrict)
