@@ -39,7 +39,7 @@ MUTANTS = (
         "source/contact/tool_works.cc",
         "closing, ramp_penetration, weight);",
         "closing, ramp_penetration, HERE ? 1. - weight : weight);",
-        "^scenes/implicit",
+        "^scenes/ramp_energy$",
     ),
     Mutant(
         "each rank judges its own elements alone",
