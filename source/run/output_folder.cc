@@ -9,8 +9,11 @@
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <optional>
 #include <regex>
+#include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace billet {
@@ -31,12 +34,31 @@ bool has_any(const fs::path &folder, const std::initializer_list<const char *> f
                      [&](const char *file) { return fs::is_regular_file(folder / file, error); });
 }
 
-/// Whether a file is one of these, also by another name.
-bool is_among(const std::vector<std::string> &sources, const fs::path &file) {
-  std::error_code error;
-  return std::any_of(sources.begin(), sources.end(),
-                     [&](const std::string &source) { return fs::equivalent(source, file, error); });
+using FileNumber = std::pair<dev_t, ino_t>; ///< device and inode, the same under all names of a file
+
+std::optional<FileNumber> number_of(const fs::path &file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0)
+    return {};
+  return FileNumber{status.st_dev, status.st_ino};
 }
+
+/// Files that a scene is made of, under all their names.
+class SourceFiles {
+public:
+  explicit SourceFiles(const parameters::Scene &parameters) {
+    for (const std::string &file : parameters::find_files(parameters))
+      if (const auto number = number_of(file))
+        numbers_.push_back(*number);
+  }
+  bool have(const fs::path &file) const {
+    const auto number = number_of(file);
+    return number && std::find(numbers_.begin(), numbers_.end(), *number) != numbers_.end();
+  }
+
+private:
+  std::vector<FileNumber> numbers_;
+};
 
 /// Whether a file or folder is this folder or anywhere in it.
 bool is_inside(const fs::path &file, const fs::path &folder) {
@@ -115,10 +137,10 @@ void remove_snapshots(const fs::path &folder) {
 
 /// Refuses a folder with a file of the scene that results would replace.
 void check_sources(const parameters::Scene &parameters, const fs::path &folder) {
-  const std::vector<std::string> sources = parameters::find_files(parameters);
+  const SourceFiles sources(parameters);
   std::error_code error;
   for (const auto &entry : fs::directory_iterator(folder, error))
-    if (is_name_of_result(entry.path().filename().string()) && is_among(sources, entry.path()))
+    if (sources.have(entry.path()) && is_name_of_result(entry.path().filename().string()))
       throw InputError(quote_folder(parameters) + ", where results would replace '" + entry.path().string() +
                        "', which the scene reads; allowed is another folder");
 }
@@ -164,9 +186,7 @@ std::string scene_copy(const parameters::Scene &parameters) {
   // The log of this run may have begun.
   const bool is_of_a_run =
       has_any(folder, {"history.csv", "diagnostics.jsonl"}) && !fs::exists(second, error);
-  return (!fs::exists(copy, error) || (is_of_a_run && !is_among(parameters::find_files(parameters), copy))
-              ? copy
-              : second)
+  return (!fs::exists(copy, error) || (is_of_a_run && !SourceFiles(parameters).have(copy)) ? copy : second)
       .string();
 }
 

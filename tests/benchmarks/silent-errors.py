@@ -88,9 +88,9 @@ if options.outcomes:
     with open(options.outcomes, "w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(["scene", "outcome", "force"])
-        for case, outcome, _, _ in results:
-            force = f"{last_force(runner.run(case.scene)):.10g}"
-            writer.writerow([f"{case.family}: {case.name}", outcome, force])
+        for result in results:
+            force = f"{last_force(runner.run(result[0].scene)):.10g}"
+            writer.writerow([f"{result[0].family}: {result[0].name}", result[1], force])
     sys.exit(0)
 
 rows = []

@@ -5,8 +5,8 @@
 Checks every scene of prm/, in one start of the program. Begins them in an empty current folder, some on
 coarser meshes, and stops each some processor time after tools, supports or pairs have begun to bear forces.
 In each line of its history the sum of reactions, contact, loads and inertia is that of the residuals. Those
-that contact_scenes.py, loaded_scenes.py, rubber_scenes.py and sheet_scenes.py run to their ends are left out:
-they check this in all lines. Scenes, and the files that they include, must be short.
+that contact_scenes.py, cup_scenes.py, loaded_scenes.py, rubber_scenes.py and sheet_scenes.py run are left
+out: they check this in all lines. Scenes, and the files that they include, must be short.
 
 Runs switched.prm to its end in every scheme: the columns of tools, supports, loads and inertia have this sum
 while forces fade.
@@ -45,15 +45,15 @@ SECONDS = 240.0  # for a scene on a busy machine
 
 # which others run to their ends
 ELSEWHERE = (
-    "bracket cylindrical_cup drop free_bend o_ring pressurised_cylinder seal slab_rolling"
-    " slab_rolling_explicit snap_fit square_cup stack u_bend wagoner_punch_mu_0 wagoner_punch_mu_015"
+    "balloon bracket cyclic_coupon cylindrical_cup drop free_bend o_ring pressurised_cylinder seal"
+    " slab_rolling slab_rolling_explicit snap_fit square_cup stack step_punch u_bend wagoner_punch_mu_0"
+    " wagoner_punch_mu_015"
 ).split()
 COARSER = {
     "twisted_hemisphere": (
         "Bodies/block/Mesh/Arguments=6, 6, 3 : -1, -1, -1 : 1, 1, 0 : true",
         "Bodies/punch/Mesh/Arguments=5, 5, 3 : -1, -1, 0 : 1, 1, 1 : true",
     ),
-    "step_punch": ("Bodies/block/Mesh/Arguments=6, 6, 4 : 0, 0, 0 : 10, 10, 10",),
     "billet_deformable_dies": (
         "Bodies/billet/Mesh/Layers=2",
         "Bodies/die/Mesh/Arguments=4, 4, 2 : 0, 0, 15 : 20, 20, 25 : true",

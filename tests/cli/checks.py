@@ -161,8 +161,8 @@ def limit_memory() -> None:
 
 @functools.cache
 def fork_server(program: str) -> ForkServer | None:
-    """Returns a process that runs this program in its children; none where it cannot, or where sanitizers want
-    processes of their own."""
+    """Returns a process that runs this program in its children; none where it cannot, or where sanitizers
+    want processes of their own."""
     if IS_SANITIZED or not os.path.isabs(program) or Path(program).name != "billet":
         return None
     server = ForkServer(program, limit_memory)

@@ -20,7 +20,6 @@ PAGES = {
     "snap_fit": "snap_fit",
     "slab_rolling": "slab_rolling",
     "slab_rolling_explicit": "slab_rolling",
-    "square_cup": "square_cup",
 }
 
 program = sys.argv[1]
@@ -78,7 +77,7 @@ def _() -> None:
 @check("it snaps in without a force, and is pulled out as a beam on the steeper ramp")
 def _() -> None:
     coarse = "Bodies/clip/Mesh/Arguments=41, 2 : 0, 0 : 20.5, 1"
-    rows = run_variant("snap_fit", coarse, "Time stepping/End time=1.19")
+    rows = run_variant("snap_fit", coarse, "Time stepping/End time=1.19", "Time stepping/Maximum step=0.04")
     inside = [row for row in rows if abs(row["time"] - 1) < 1e-9]
     equal("steps at the end of the way in", len(inside), 1)
     equal("force on the catch", abs(inside[0]["catch.force_x"]) + abs(inside[0]["catch.force_y"]), 0.0)
@@ -93,10 +92,10 @@ def _() -> None:
 TURN = 0.35  # of the roll in the whole scene, at a constant rate
 
 
-def check_rolling(name: str, end: float) -> None:
-    """Rolls 70 % of a coarse slab, and compares means over what is steady with slab theory."""
-    coarse = "Bodies/slab/Mesh/Arguments=18, 2 : -66.16, 0 : -21.16, 5"
-    rows = run_variant(name, coarse, f"Time stepping/End time={0.7 * end}")
+def check_rolling(name: str, end: float, *changes: str) -> None:
+    """Rolls a part of a coarse and shorter slab, and compares means over what is steady with slab theory."""
+    coarse = "Bodies/slab/Mesh/Arguments=14, 2 : -56.16, 0 : -21.16, 5"
+    rows = run_variant(name, coarse, f"Time stepping/End time={0.65 * end}", *changes)
     steady = [row for row in rows if row["time"] >= 0.45 * end]
     spans = [after["time"] - before["time"] for before, after in zip(steady, steady[1:])]
 
@@ -122,25 +121,14 @@ def _() -> None:
 
 @check("so it does in explicit dynamics")
 def _() -> None:
-    check_rolling("slab_rolling_explicit", 10.5e-3)
-
-
-@check("the cup begins symmetric about its diagonal, and its forces and energies balance")
-def _() -> None:
-    rows = run_variant("square_cup", "Time stepping/End time=2e-4")
-    last = rows[-1]
-    require(last["punch.travel_z"] < -0.2, f"the punch has gone {last['punch.travel_z']}")
-    for row in rows:
-        across = abs(row["corner.displacement_x"] - row["corner.displacement_y"])
-        require(across <= 1e-9, f"the corner moves {across} off the diagonal")
-    require(last["plastic_work"] > 0, "nothing yields")
-    require(abs(last["energy_drift"]) < 1e-3, f"energy drifts by {last['energy_drift']}")
+    heavy = "Bodies/slab/Material/Density=3e-8"  # in half the steps; rho v^2 is 0.3 % of the yield stress
+    check_rolling("slab_rolling_explicit", 10.5e-3, heavy)
 
 
 @check("pages")
 def _() -> None:
     for name, page_name in PAGES.items():
-        require_short(name, counts_included=name != "square_cup")  # its tools alone have 40 lines
+        require_short(name, counts_included=True)
         require_page(name, page_name)
 
 

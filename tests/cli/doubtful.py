@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: doubtful.py TABLE BILLET
+"""Usage: doubtful.py TABLE BILLET [I/N]
 
-Runs in an empty current folder.
+Runs in an empty current folder; I/N: every N-th case of the table from the I-th on.
 
 Each line of TABLE is a scene that billet must run, check, refuse or stop with these warnings and errors, or
 with no warning:
@@ -143,10 +143,11 @@ def check_at_once(cases: list[Case], runner: Runner) -> dict[Case, tuple[int, st
 
 def main() -> int:
     """Returns the exit code."""
-    table, billet = sys.argv[1:]
+    table, billet, *part = sys.argv[1:]
+    first, step = map(int, part[0].split("/")) if part else (1, 1)
     enter_folder()
     check, runner = Checks("cases"), Runner(Program([billet]))
-    cases = read_cases(table)
+    cases = read_cases(table)[first - 1 :: step]
     checked = check_at_once([case for case in cases if not case.goes_alone], runner)
     for case in cases:
 

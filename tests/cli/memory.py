@@ -32,7 +32,7 @@ MATERIALS = {
     "      set Melting temperature = 893\n      set Taylor-Quinney fraction = 0.9\n"
     "      set Specific heat = 20e6\n",
 }
-TURN, STEPS = 1e-3, 20  # time at which the cube is pushed back, and steps until then
+TURN, STEPS = 4e-4, 20  # time at which the cube is pushed back, and steps until then
 FORCE = "cube.support head.force_x"
 
 

@@ -11,6 +11,7 @@ over exactly, and by each other on other numbers of ranks and after restarts.
 
 from __future__ import annotations
 
+import functools
 import re
 import sys
 from glob import glob
@@ -139,7 +140,7 @@ IMPACTS = {
     "hypoelastic": "Material: + set Elasticity = hypoelastic",
     "elastic": "Material: - Yield stress & Material: - Hardening modulus",
     "float": "+ subsection Explicit dynamics\\n set Number type = float\\nend",
-    "implicit": "Time stepping: Scheme = implicit dynamics",
+    "implicit": "Time stepping: Scheme = implicit dynamics & Time stepping: End time = 5e-6",
 }
 MOTION = ("wall.force_z", "kinetic_energy", "plastic_work", "momentum_z")
 EARLY = "block: + set Refinement times = 1e-6"
@@ -154,12 +155,18 @@ for name, shape in IMPACTS.items():
         require(abs(float(note(refined)[1])) < 1e-9 * refined.column("kinetic_energy")[0], "energy is made")
 
 
+@functools.cache
+def coarse_stack() -> Run:
+    """Returns the run of the stack that is not refined."""
+    return runs(STACK, "")
+
+
 for body in ("upper", "lower", "both"):
 
     @check(f"friction sticks while a mesh is refined: {body}")
     def _() -> None:
         bodies = ("upper", "lower") if body == "both" else (body,)
-        coarse = runs(STACK, "")
+        coarse = coarse_stack()
         refined = runs(STACK, combined(*(f"{name}: + set Refinement times = 0.5" for name in bodies)))
         fine = runs(STACK, combined(*(f"Bodies / {name} / Mesh: + set Refinements = 1" for name in bodies)))
         force = "upper.support ram.force_x"
@@ -383,7 +390,8 @@ def _() -> None:
     ended = run(*program.on(1, *scene))
     require(ended.code == 3, f"exit code {ended.code}")
     says("Contact springs would gain an energy of .* 'Passes = two', or finer elements", ended.errors)
-    ended = run(*program.on(1, *scene, "--set", "Contact pairs/top/Passes=two"))
+    until = ("--set", "Time stepping/End time=6e-4")  # soon after the refinement
+    ended = run(*program.on(1, *scene, "--set", "Contact pairs/top/Passes=two", *until))
     require(ended.code == 0, ended.errors)
 
 

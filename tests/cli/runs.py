@@ -706,6 +706,7 @@ def _() -> None:
 for edits, times in (
     ("Output: Interval = 0.25", "0 0.25 0.5 0.75 1"),
     (f"{FIXED} & Output: Interval = 0.25", "0 0.25 0.5 0.75 1"),
+    (f"{FIXED} & Output: Interval = 0.2", "0 0.2 0.4 0.6 0.8 1"),
     (f"{FIXED} & Output: Step interval = 3", "0 0.3 0.6 0.9 1"),
     ("Output: Step interval = 0", "0 1"),
 ):

@@ -3,9 +3,8 @@
 """Usage: sheet_scenes.py BILLET
 
 Runs sheets that are bent and spring back in an empty current folder: pure bending beside its closed form,
-and coarse and short variants of the shipped U-bend, free bend and cups beside what geometry, strip theory,
-the closed form of ears and an experiment say.
-The scenes themselves run in tests/benchmarks.
+and coarse and short variants of the shipped U-bend and free bend beside what geometry and strip theory say.
+The scenes themselves run in tests/benchmarks. cup_scenes.py runs the cups.
 """
 
 from __future__ import annotations
@@ -16,24 +15,13 @@ import sys
 from pathlib import Path
 
 from checks import HERE, SHIPPED, Checks, enter_folder, equal, near, require, run
-from earing_theory import Cup
 from pure_bending_theory import MILD_STEEL, bend_and_release, changes, read_release
-from shipped import Rows, history, require_balance, require_page, require_short
+from shipped import require_page, require_short, run_variant
 
 THREE_SHEETS = str(HERE / "three_sheets.prm")
 program = sys.argv[1]
 check = Checks()
 enter_folder()
-
-
-def run_variant(scene: str, folder: str, changed: dict[str, object]) -> Rows:
-    """Runs a scene with changes to its end, and returns its history, in which forces balance."""
-    options = [part for item in changed.items() for part in ("--set", "{}={}".format(*item))]
-    ended = run(program, scene, "--output", folder, "--set", "Output/Format=none", *options)
-    require(ended.code == 0, ended.output + ended.errors)
-    rows = history(folder)
-    require_balance(rows)
-    return rows
 
 
 def slope(row: dict[str, float], i: int) -> float:
@@ -48,7 +36,7 @@ def _() -> None:
         exact = bend_and_release(MILD_STEEL, radius)
         for layers, points, tolerance in ((1, 7, 2e-2), (2, 5, 5e-3)):
             name = f"bent_{radius:g}_{layers}"
-            rows = run_variant(str(HERE / "pure_bending.prm"), name, changes(radius, layers, points))
+            rows = run_variant(program, str(HERE / "pure_bending.prm"), name, changes(radius, layers, points))
             moment, part = read_release(rows)
             near(f"{name}: moment", moment, exact[0], tolerance)
             near(f"{name}: springback", part, exact[1], tolerance)
@@ -57,7 +45,10 @@ def _() -> None:
 @check("the free bend closes to the angle of its tools, and springs back")
 def _() -> None:
     rows = run_variant(
-        str(SHIPPED / "free_bend.prm"), "free_bend", {"Bodies/strip/Mesh/Arguments": "60, 1 : 0, 0 : 60, 1"}
+        program,
+        str(SHIPPED / "free_bend.prm"),
+        "free_bend",
+        {"Bodies/strip/Mesh/Arguments": "60, 1 : 0, 0 : 60, 1"},
     )
     formed = next(row for row in rows if abs(row["time"] - 1) < 1e-9)
     # The outer face of the strip, 24.5 around the punch, touches the shoulder of 4 along a straight leg.
@@ -73,6 +64,7 @@ def _() -> None:
 @check("the wall of the U-bend bears what friction and bending take, and springs back")
 def _() -> None:
     rows = run_variant(
+        program,
         str(SHIPPED / "u_bend.prm"),
         "u_bend",
         {
@@ -91,53 +83,9 @@ def _() -> None:
     require(slope(rows[-1], 7) < slope(formed, 7) - 3, "the walls do not open")
 
 
-def cup_draw_in(folder: str, r_values: tuple[float, float, float]) -> tuple[float, float, float]:
-    """Draw-in at 0, 45 and 90 degrees to the rolling direction, after a fifth of the travel."""
-    last = run_variant(
-        str(SHIPPED / "cylindrical_cup.prm"),
-        folder,
-        {
-            "Bodies/blank/Mesh/Arguments": "24, 8, 1 : 0, 0, 0 : 24, 1, 1",
-            "Bodies/blank/Material/r-values": ", ".join(map(str, r_values)),
-            "Tools/holder/Motion/Removal time": "",
-            "Tools/holder/Motion/Release time": "",
-            "Time stepping/End time": 0.2,
-        },
-    )[-1]
-    near(f"{folder}: force of the holder", abs(last["holder.force_z"]), 20e3, 1e-2)
-    diagonal = math.hypot(last["rim_45.displacement_x"], last["rim_45.displacement_y"])
-    return -last["rim_0.displacement_x"], diagonal, -last["rim_90.displacement_y"]
-
-
-@check("the flange of a cup is drawn in by Hill's anisotropy as the closed form of ears says")
-def _() -> None:
-    r_values = (1.73, 1.34, 2.24)
-    found = cup_draw_in("anisotropic", r_values)
-    theory = Cup(100, 50.5, r_values).draw_ins_of_same_stress(sum(found) / 3)
-    valley, expected = (dd - (dx + dy) / 2 for dx, dd, dy in (found, theory))
-    near("draw-in along the diagonal less that along the axes", valley, expected, 0.2)
-    round_one = cup_draw_in("isotropic", (1, 1, 1))
-    spread = max(round_one) - min(round_one)
-    require(spread < 0.01 * (max(found) - min(found)), f"the isotropic flange is not round by {spread}")
-
-
-@check("the corner of the square cup is drawn in as NUMISHEET'93 measured")
-def _() -> None:
-    # Heavier, whose kinetic energy at the end is 1e-3 of the work, it takes less than half the steps.
-    heavy = {"Explicit dynamics/Mass scaling step": 2e-7}
-    last = run_variant(
-        str(SHIPPED / "square_cup.prm"), "square_cup", {**heavy, "Time stepping/End time": 1.5e-3}
-    )[-1]
-    near("travel of the punch", last["punch.travel_z"], -15.0, 1e-4)
-    # Mean of the laboratories, as in tests/benchmarks/square-cup.py. It is off by 0.9 %, without
-    # friction by 7.5 %. The middle of the edge is no measure: -9.3 %, without friction 1.7 %.
-    draw_in = math.hypot(last["corner.displacement_x"], last["corner.displacement_y"])
-    near("draw-in along the diagonal", draw_in, 3.2, 0.04)
-
-
 @check("a stack of sheets is as stiff as its closed form")
 def _() -> None:
-    rows = run_variant(THREE_SHEETS, "three_sheets", {})
+    rows = run_variant(program, THREE_SHEETS, "three_sheets", {})
     for row in rows[1:]:
         stretch = 1 - 0.03 * row["time"] / 0.15
         theory = 10 * 1000 * math.log(1 / stretch) / stretch
@@ -154,10 +102,10 @@ def _() -> None:
     for pair in ("blank on punch", "blank on die"):
         options |= {f"Contact pairs/{pair}/{key}": "" for key in ("Penalty unit", "Normal penalty")}
     scene = str(SHIPPED / "wagoner_punch_mu_0.prm")
-    found = run_variant(scene, "stretched", options)[-1]["punch.force_z"]
+    found = run_variant(program, scene, "stretched", options)[-1]["punch.force_z"]
     for tool in ("punch", "die"):
         options[f"Contact pairs/blank on {tool}/Penetration tolerance"] = 1e-5
-    stiff = run_variant(scene, "stretched_stiff", options)[-1]["punch.force_z"]
+    stiff = run_variant(program, scene, "stretched_stiff", options)[-1]["punch.force_z"]
     # With 0.03 E/h from the start it is 0.8 % less.
     near("force of the punch", found, stiff, 1e-3)
 
@@ -170,6 +118,7 @@ def _() -> None:
         "Time stepping": ("Initial step", "Maximum step"),
     }
     rows = run_variant(
+        program,
         str(SHIPPED / "wagoner_punch_mu_015.prm"),
         "tight",
         {
@@ -202,7 +151,7 @@ def _() -> None:
 
 @check("pages")
 def _() -> None:
-    for name in ("u_bend", "free_bend", "cylindrical_cup", "square_cup"):
+    for name in ("u_bend", "free_bend"):
         require_short(name)
         require_page(name, name)
 

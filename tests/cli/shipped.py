@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from checks import SHIPPED, read_text, require, rows_of
+from checks import SHIPPED, near, read_text, require, rows_of, run
 
 MAX_LINES = 60
 
@@ -38,9 +38,29 @@ def require_balance(rows: Rows) -> None:
         require(abs(row["force_balance_defect"]) <= 1e-12, f"defect {row['force_balance_defect']}")
 
 
+def run_variant(program: str, scene: str, folder: str, changed: dict[str, object]) -> Rows:
+    """Runs a scene with changes to its end, and returns its history, in which forces balance."""
+    options = [part for item in changed.items() for part in ("--set", "{}={}".format(*item))]
+    ended = run(program, scene, "--output", folder, "--set", "Output/Format=none", *options)
+    require(ended.code == 0, ended.output + ended.errors)
+    rows = history(folder)
+    require_balance(rows)
+    return rows
+
+
 def require_page(name: str, page_name: str) -> None:
     """Checks that the page of a scene names it, and has its pictures."""
     page = read_text(SHIPPED.parent / f"doc/scenes/{page_name}.md")
     require(f"prm/{name}.prm" in page, f"the page of {name} does not name its scene")
     for picture in re.findall(r"\]\(\.\./(images/\S+?)\)", page):
         require((SHIPPED.parent / "doc" / picture).exists(), f"no {picture}")
+
+
+def require_steps(tutorial: str, folder: str) -> None:
+    """Checks that a run has the steps and iterations that a tutorial tells of."""
+    _, *rows = rows_of(str(SHIPPED.parent / "doc/tutorials/values.csv"))
+    kept = {row[0]: row[2] for row in rows if row[1] == "steps and Newton iterations"}
+    last = history(folder)[-1]
+    n_steps, n_iterations = map(float, kept[tutorial].split(" and "))
+    near(f"steps of {tutorial}", last["step"], n_steps, 0.1)  # other machines round otherwise
+    near(f"iterations of {tutorial}", last["total_iterations"], n_iterations, 0.1)

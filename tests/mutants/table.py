@@ -134,8 +134,8 @@ MUTANTS = (
         "source/algebra/direct_solver.cc",
         "const bool success = call(job_solve);",
         "const bool success = call(job_solve);\n    if (HERE && !whole.empty())\n"
-        "      whole.front() *= 1. + 1e-9;",
-        "^algebra/",
+        "      whole[whole.size() / 2] *= 1. + 1e-9;",
+        "^solve/two_blocks$",
     ),
     Mutant(
         "lengths that become as masses do where --certify tries other units",

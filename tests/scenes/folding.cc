@@ -114,10 +114,10 @@ void test_two_sides() {
 
 BILLET_MPI_TEST(folding) {
   using Facets = FacetMethod;
-  test("ring, overlap", "ring_crush.prm", 40, Facets::overlap);
-  test("ring, planed", "ring_crush.prm", 40, Facets::planed);
-  test("block, overlap", "hollow_block.prm", 20, Facets::overlap);
-  test_with_friction("ring, friction", "ring_crush.prm", 40);
+  test("ring, overlap", "ring_crush.prm", 25, Facets::overlap);
+  test("ring, planed", "ring_crush.prm", 25, Facets::planed);
+  test("block, overlap", "hollow_block.prm", 12, Facets::overlap);
+  test_with_friction("ring, friction", "ring_crush.prm", 20);
   test_two_sides();
 }
 

@@ -40,7 +40,8 @@ void check_losses() {
         !is_reported(0.01) && is_reported(0.2));
   check("again when they have grown much", is_reported(0.5, 0.1));
   check("  not before, whatever is reported", !is_reported(0.1, 0.1));
-  check("a good part of them is named beside the largest cause", !names_friction(0.01) && names_friction(0.3));
+  check("a good part of them is named beside the largest cause",
+        !names_friction(0.01) && names_friction(0.3));
   check("  the largest always", names_friction(0.6));
   ContactLosses none;
   none.add(ContactLosses::impacts, 1.);
