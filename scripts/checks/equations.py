@@ -15,7 +15,7 @@ from pathlib import Path
 
 THEORY = Path("doc/theory")
 CONTENTS = Path("doc/theory.md")
-FOLDERS = ("doc", "include", "source", "tests", "tools", "prm", "scripts", "cmake")
+FOLDERS = ("doc", "include", "source", "tests", "benchmarks", "tools", "prm", "scripts", "cmake")
 KINDS = {".md", ".h", ".cc", ".py", ".prm", ".in", ".txt", ".output", ".cases"}
 
 NUMBER = r"([A-Z])(\d{1,2})([a-z]?)"

@@ -14,7 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 TABLE = "source/parameters/renames.cc"
-FOLDERS = ("doc", "include", "prm", "scripts", "source", "tests", "tools")
+FOLDERS = ("benchmarks", "doc", "include", "prm", "scripts", "source", "tests", "tools")
 SUFFIXES = (".cases", ".cc", ".csv", ".h", ".md", ".output", ".prm", ".py", ".txt")
 ALLOWED = (
     TABLE,

@@ -41,7 +41,7 @@ IMAGE = "debian:12"  # the release that is verified
 LINK = re.compile(r"\]\(([^):#\s]*)(?:#([\w-]+))?\)")
 PLACE = re.compile(
     r"(?<![\w/.-])(?:/usr/src/billet/|\$root/|\./)?"
-    r"((?:\.ci|\.github|cmake|doc|examples|include|prm|scripts|source|tests|tools)/[\w./-]*\w)"
+    r"((?:\.ci|\.github|benchmarks|cmake|doc|examples|include|prm|scripts|source|tests|tools)/[\w./-]*\w)"
 )
 PRESET = re.compile(r"--preset (\w+)")
 GROUPS = re.compile(r"packages\.sh((?: \w+)+)")

@@ -3,7 +3,7 @@
 """Usage: contact_scenes.py BILLET
 
 Runs coarser variants of shipped scenes with contact in an empty current folder, and compares them with what
-holds for any mesh, and with theory. The scenes themselves run in tests/benchmarks.
+holds for any mesh, and with theory. The scenes themselves run in benchmarks.
 """
 
 from __future__ import annotations

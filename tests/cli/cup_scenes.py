@@ -3,7 +3,7 @@
 """Usage: cup_scenes.py BILLET
 
 Draws cups in an empty current folder: coarse and short variants of the shipped ones, beside the closed form
-of ears and an experiment. The scenes themselves run in tests/benchmarks.
+of ears and an experiment. The scenes themselves run in benchmarks.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def _() -> None:
     require(begin[-1]["plastic_work"] > 0, "nothing yields")
     require(abs(begin[-1]["energy_drift"]) < 1e-3, f"energy drifts by {begin[-1]['energy_drift']}")
     near("travel of the punch", last["punch.travel_z"], -15.0, 1e-4)
-    # Mean of the laboratories, as in tests/benchmarks/square-cup.py. It is off by -1.1 %, without
+    # Mean of the laboratories, as in benchmarks/square-cup.py. It is off by -1.1 %, without
     # friction by 6.5 %. The middle of the edge is no measure: -10.2 %, without friction 1.9 %.
     draw_in = math.hypot(last["corner.displacement_x"], last["corner.displacement_y"])
     near("draw-in along the diagonal", draw_in, 3.2, 0.04)

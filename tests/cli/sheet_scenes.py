@@ -4,7 +4,7 @@
 
 Runs sheets that are bent and spring back in an empty current folder: pure bending beside its closed form,
 and coarse and short variants of the shipped U-bend and free bend beside what geometry and strip theory say.
-The scenes themselves run in tests/benchmarks. cup_scenes.py runs the cups.
+The scenes themselves run in benchmarks. cup_scenes.py runs the cups.
 """
 
 from __future__ import annotations

@@ -87,7 +87,9 @@ def error(layers: int = 4, step: float = 0.1, penalty: float = 10.0) -> float:
 SHAPE = math.sqrt((1 / 3 - 1 / 192) / (1 / 12 - 1 / 192))
 
 
-class TestCommand(unittest.TestCase):
+class Trade(unittest.TestCase):
+    """billet-trade in a folder of its own, with a program that stands for billet."""
+
     temporary: TemporaryDirectory[str]
     folder: Path
 
@@ -150,6 +152,8 @@ class TestCommand(unittest.TestCase):
         with open(self.folder / f"{name}.csv", newline="") as file:
             return list(csv.DictReader(file))
 
+
+class Sweeps(Trade):
     def test_sweep(self) -> None:
         """Stopped in the middle, taken up again, and all errors as they must be."""
         stopped = self.trade(*WHOLE, FAKE_INTERRUPT="7")
@@ -276,61 +280,6 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(missed.returncode, 3)
         self.assertIn("Nothing tried is within 3 %", missed.stdout)
 
-    def test_stop_while_others_wait(self) -> None:
-        """A study that is stopped ends, though the run after the one that was stopped takes its time."""
-
-        class Slow(Runner):
-            def elements(self, scene: Scene) -> int:
-                return 1
-
-            def run(self, scene: Scene, repeat: int | None = None, limit: float | None = None) -> Result:
-                if self.stop.is_set():
-                    time.sleep(0.3)  # long enough for the first to be heard of
-                self.stop.set()
-                raise Stopped
-
-        runner = Slow(Program(self.folder / "fake", 1), self.folder / "stopped", 4.0, 1)
-        scene = Scene(SCENE)
-        work = Work(runner, Progress(4, 10, 1.0, False, 1), scene)
-        penalty = "Contact pairs/top/Normal penalty"
-        tasks = [(f"penalty {value}", scene.changed({penalty: value}), 1) for value in "1234"]
-        found: list[dict[str, Result]] = []
-        thread = threading.Thread(target=lambda: found.append(work.run(tasks, 1)), daemon=True)
-        thread.start()
-        thread.join(30)
-        runner.close()
-        self.assertEqual((found, work.was_stopped, work.left_out), ([{}], True, {}))
-
-    def test_weights_and_given_mesh(self) -> None:
-        done = self.trade(
-            "--parameters",
-            "penalty=10",
-            "maximum step=0.5",
-            "--reference-mesh",
-            "given",
-            "--outputs",
-            "force=3,shape",
-            "--repeat",
-            "1",
-            "--folder",
-            "given",
-            "--until",
-            "0.5",
-        )
-        self.assertEqual(done.returncode, 0, done.stderr)
-        found = {(row["knob"], row["value"]): row for row in self.rows("given/trade")}
-        mesh = 1 + 0.3 / 16  # what is not counted, and is part of what errors are relative to
-        self.assertAlmostEqual(
-            float(found["", "as written"]["difference_force"]), (error() - 0.3 / 16) / mesh, delta=3e-6
-        )
-        for row in found.values():
-            if row["difference"]:
-                self.assertAlmostEqual(
-                    float(row["difference"]),
-                    0.75 * float(row["difference_force"]) + 0.25 * float(row["difference_shape"]),
-                    delta=1e-6,
-                )
-
     def test_forces_judge_whatever_counts(self) -> None:
         """Runs that were kept when forces counted tell of locking when the shape alone does."""
         parameters = (
@@ -451,6 +400,63 @@ class TestCommand(unittest.TestCase):
         short = self.trade(*sweep, "--folder", "short", "--budget", "3 runs")
         self.assertEqual((short.returncode, self.runs()), (3, 33), short.stderr)
         self.assertIn("No error is known yet", (self.folder / "short/trade.md").read_text())
+
+
+class Command(Trade):
+    def test_stop_while_others_wait(self) -> None:
+        """A study that is stopped ends, though the run after the one that was stopped takes its time."""
+
+        class Slow(Runner):
+            def elements(self, scene: Scene) -> int:
+                return 1
+
+            def run(self, scene: Scene, repeat: int | None = None, limit: float | None = None) -> Result:
+                if self.stop.is_set():
+                    time.sleep(0.3)  # long enough for the first to be heard of
+                self.stop.set()
+                raise Stopped
+
+        runner = Slow(Program(self.folder / "fake", 1), self.folder / "stopped", 4.0, 1)
+        scene = Scene(SCENE)
+        work = Work(runner, Progress(4, 10, 1.0, False, 1), scene)
+        penalty = "Contact pairs/top/Normal penalty"
+        tasks = [(f"penalty {value}", scene.changed({penalty: value}), 1) for value in "1234"]
+        found: list[dict[str, Result]] = []
+        thread = threading.Thread(target=lambda: found.append(work.run(tasks, 1)), daemon=True)
+        thread.start()
+        thread.join(30)
+        runner.close()
+        self.assertEqual((found, work.was_stopped, work.left_out), ([{}], True, {}))
+
+    def test_weights_and_given_mesh(self) -> None:
+        done = self.trade(
+            "--parameters",
+            "penalty=10",
+            "maximum step=0.5",
+            "--reference-mesh",
+            "given",
+            "--outputs",
+            "force=3,shape",
+            "--repeat",
+            "1",
+            "--folder",
+            "given",
+            "--until",
+            "0.5",
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = {(row["knob"], row["value"]): row for row in self.rows("given/trade")}
+        mesh = 1 + 0.3 / 16  # what is not counted, and is part of what errors are relative to
+        self.assertAlmostEqual(
+            float(found["", "as written"]["difference_force"]), (error() - 0.3 / 16) / mesh, delta=3e-6
+        )
+        for row in found.values():
+            if row["difference"]:
+                self.assertAlmostEqual(
+                    float(row["difference"]),
+                    0.75 * float(row["difference_force"]) + 0.25 * float(row["difference_shape"]),
+                    delta=1e-6,
+                )
 
     def test_target_of_everything(self) -> None:
         """The levels that the program runs count, and the last one is judged; the user's target is tried."""

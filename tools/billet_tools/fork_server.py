@@ -18,6 +18,7 @@ class ForkServer:
     """One process that serves, one run after the other. A program that cannot serve has none: `serves`."""
 
     LONGEST = 1 << 19  # bytes of a request
+    PATIENCE = 30.0  # seconds to load
 
     def __init__(self, program: str | Path, restrict: Callable[[], None] | None = None) -> None:
         """`restrict`: sets limits of the process, which its children inherit."""
@@ -33,7 +34,11 @@ class ForkServer:
                 env={**os.environ, "LD_BIND_NOW": "1"},
                 start_new_session=True,  # Ctrl-C is of who asks for runs
             )
-        self.serves = self._receive("i", None) is not None
+        try:
+            self.serves = self._receive("i", self.PATIENCE) is not None
+        except TimeoutError:  # it does something else
+            self.serves = False
+            self._process.kill()
         atexit.register(self.close)
 
     def close(self) -> None:

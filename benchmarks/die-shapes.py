@@ -27,7 +27,7 @@ options = arguments("die-shapes")
 RING, TUBE, HEIGHT, TRAVEL = 59.18, 6.35, -6.35, 40.0
 FILLET = "Tools/die/Surfaces/fillet/"
 HERE = Path(__file__).resolve().parent
-COST = str(Path(PROGRAM).resolve().parents[1] / "tests/benchmarks/bin/projection_cost")
+COST = str(Path(PROGRAM).resolve().parents[1] / "benchmarks/bin/projection_cost")
 SCENE = ROOT / "prm/wagoner_punch.prm"
 
 

@@ -16,7 +16,7 @@ from billet_runs import PROGRAM, arguments, number, publish, table
 
 options = arguments("explicit")
 REPEAT = 1 if options.quick else 3
-PROBE = Path(PROGRAM).resolve().parent.parent / "tests/benchmarks/bin/explicit_kernels"
+PROBE = Path(PROGRAM).resolve().parent.parent / "benchmarks/bin/explicit_kernels"
 END = 3.2e-5
 
 BODY = """

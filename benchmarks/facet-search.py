@@ -10,7 +10,7 @@ from pathlib import Path
 from billet_runs import PROGRAM, arguments, number, publish, table
 
 options = arguments("facet-search")
-COST = str(Path(PROGRAM).resolve().parents[1] / "tests/benchmarks/bin/facet_search_cost")
+COST = str(Path(PROGRAM).resolve().parents[1] / "benchmarks/bin/facet_search_cost")
 largest = "1e5" if options.quick else "1e6"
 said = subprocess.run([COST, largest], check=True, capture_output=True, text=True).stdout
 rows = [[float(word) for word in line.split()] for line in said.splitlines()[1:]]

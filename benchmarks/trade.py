@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[1]
 
 # Scene and options by the name of the picture. Each takes some minutes on one core.
 SWEEPS: dict[str, tuple[str, str, list[str], list[list[str]]]] = {

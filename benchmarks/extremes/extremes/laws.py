@@ -30,7 +30,7 @@ CONSTANT = {"Mooney-Rivlin": 0.2, "Yeoh": 0.01, "Arruda-Boyce": 3.0}
 TRELOAR = ((0.63, 1.3), (0.0012, 5.0), (-0.01, -2.0))
 COLD, MELTING = 300.0, 1300.0
 HEATS = 0.9  # the part of plastic work that does
-UMAT = Path(__file__).resolve().parents[2] / "cli/umat/umat.f90"
+UMAT = Path(__file__).resolve().parents[3] / "tests/cli/umat/umat.f90"
 LIBRARY = "libumat.so"
 
 

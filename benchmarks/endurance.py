@@ -58,7 +58,7 @@ memory = []
 with tempfile.TemporaryDirectory() as folder:
     end = N_STEPS * STEP
     run = WatchedRun(
-        ROOT / "tests/benchmarks/resting_stack.prm",
+        ROOT / "benchmarks/resting_stack.prm",
         {"Time stepping/End time": end, "Output/Interval": end / 10},
         folder,
     )
@@ -108,7 +108,7 @@ with tempfile.TemporaryDirectory() as folder:
 with tempfile.TemporaryDirectory() as folder:
     n_cycles = 1000 if options.quick else 100_000
     cycled = WatchedRun(
-        ROOT / "tests/benchmarks/friction_cycles.prm", {"Time stepping/End time": n_cycles}, folder
+        ROOT / "benchmarks/friction_cycles.prm", {"Time stepping/End time": n_cycles}, folder
     )
     memory.append(
         [f"{n_cycles} cycles of friction, implicit", int(cycled.rows[-1]["step"])]
@@ -144,7 +144,7 @@ publish(
     (
         "This page shows that long runs neither drift nor grow in memory.\n\n"
         "## A stack at rest\n\n"
-        "Three blocks of rubber lie on each other and on the ground (`tests/benchmarks/resting_stack.prm`)."
+        "Three blocks of rubber lie on each other and on the ground (`benchmarks/resting_stack.prm`)."
         f" Friction is 0.3; the run takes {n_steps} explicit steps. Gravity grows within the first"
         " second.\n\n"
         "The table has means over a tenth of the time, in the middle and at the end, and their relative"
@@ -170,7 +170,7 @@ publish(
     ),
     (
         "## Cycles of friction\n\n"
-        "A plate presses a brick and cycles with friction (`tests/benchmarks/friction_cycles.prm`). The run"
+        "A plate presses a brick and cycles with friction (`benchmarks/friction_cycles.prm`). The run"
         f" has {n_cycles} cycles of four steps. The table compares an early cycle with the last one."
         " Friction's work is a difference of sums that grow, whose last bits are lost."
     ),

@@ -173,7 +173,7 @@ publish(
         "This page shows what `Profile` = fast, balanced and accurate cost, and what errors they make. Each"
         " shipped scene runs without what a profile sets: steps, tolerances, penalties, elements and laws of"
         " rates. In implicit dynamics the steps of the scene stay."
-        " Scenes marked cut have less time or a coarser mesh, as in tests/benchmarks/profile_runs.py."
+        " Scenes marked cut have less time or a coarser mesh, as in benchmarks/profile_runs.py."
         " Each run is done once.\n\n"
         "- Work: Newton iterations with those of failed steps and of estimates; of explicit scenes element"
         " updates.\n"

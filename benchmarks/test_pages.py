@@ -33,7 +33,7 @@ from silent_errors_runs import OF_THE_MESH, Case, Kept, Reference, Runner, Secti
 from billet_tools.scene import scene_text
 
 HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
+ROOT = HERE.parent
 
 
 class Counting(unittest.TestCase):

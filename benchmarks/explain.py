@@ -173,7 +173,7 @@ publish(
         " more than two levels. This page compares its bars with a study that refines each source twice. It"
         " has a quarter of the elements' size and of the steps, and a sixteenth of the penetration. Its"
         " errors are extrapolated with the order that the three runs show, from 1/2 to 2. Scenes are cut as"
-        " in tests/benchmarks/explain.py."
+        " in benchmarks/explain.py."
     ),
     f"The largest source is right in {n_right} of {len(SCENES)} scenes. The error by the study lies in the"
     f" range of {n_inside} of {n_compared} bars.\n\n"

@@ -1037,7 +1037,8 @@ class Running(unittest.TestCase):
     def runner(self, *lines: str, patience: float = PATIENCE, at_most: float = AT_MOST) -> Runner:
         program = self.folder / "program"
         program.write_text(
-            "\n".join(["#!/bin/bash", "mkdir results; echo step > results/history.csv", *lines]) + "\n"
+            "#!/bin/bash\n[[ $1 != --serve ]] || exit 2\n"
+            + "\n".join(["mkdir results; echo step > results/history.csv", *lines, ""])
         )
         program.chmod(0o755)
         return Runner(program, self.folder / "runs", patience=patience, at_most=at_most)

@@ -34,7 +34,7 @@ from billet_runs import (
 from billet_tools.output import read_rows
 
 options = arguments("elements")
-COST = str(Path(PROGRAM).resolve().parents[1] / "tests/benchmarks/bin/element_cost")
+COST = str(Path(PROGRAM).resolve().parents[1] / "benchmarks/bin/element_cost")
 ELEMENT, KINEMATICS = "Bodies/billet/Element", "Bodies/billet/Material/Elasticity"
 ELEMENTS, LAWS = ("assumed strain", "mean dilatation", "one point"), ("Hencky", "neo-Hookean", "hypoelastic")
 CLASSES = {

@@ -23,7 +23,7 @@ parser.add_argument(
 )
 options = parser.parse_args()
 
-program = Path(PROGRAM).parent.parent / "tests/benchmarks/bin/linear_solvers"
+program = Path(PROGRAM).parent.parent / "benchmarks/bin/linear_solvers"
 SIZES = (50_000,) if options.quick else (50_000, 150_000, 500_000) if options.large else (50_000, 150_000)
 PENALTIES = ("1", "100", "10000")
 TIES = (("sticking", "CG"), ("frictionless", "CG"), ("sliding", "GMRES"))

@@ -15,7 +15,7 @@ from curve_runs import error as curve_error
 
 options = arguments("penetration")
 LIMIT = 0.005
-SLAB, PLATES = ROOT / "tests/cli/doubtful/slab.prm", ROOT / "tests/benchmarks/stacked_plates.prm"
+SLAB, PLATES = ROOT / "tests/cli/doubtful/slab.prm", ROOT / "benchmarks/stacked_plates.prm"
 SCHEME = "Time stepping/Scheme"
 OF_PENALTIES = ("Normal penalty", "Tangential penalty", "Penalty unit", "Penetration tolerance")
 IN_MOTION = {"Bodies/R/Material/Density": "1e-3"}  # of the slab
