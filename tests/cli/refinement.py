@@ -195,6 +195,21 @@ def _() -> None:
     near("force", last[head], history("planed_fine")[-1][head], 1e-3)
 
 
+@check("so they do while the mesh of the facets is refined")
+def _() -> None:
+    of_upper = ("--set", "Bodies/upper/Refinement times=")
+    late, early = (
+        (*of_upper, "--set", f"Bodies/lower/{change}")
+        for change in ("Refinement times=0.5", "Mesh/Refinements=1")
+    )
+    forces = []
+    for name, changes in (("facets", late), ("facets_fine", early)):
+        ended = run(*program.on(1, PLANED, "--output", name, *changes))
+        require(ended.code == 0, ended.errors)
+        forces.append(history(name)[-1]["upper.support head.force_z"])
+    near("force", *forces, 1e-3)
+
+
 @check("an impact that is refined in contact")
 def _() -> None:
     refined = runs(IMPACT, "block: + set Refinement times = 4e-6")

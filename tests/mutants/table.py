@@ -180,4 +180,11 @@ MUTANTS = (
         "const bool is_due = n > last_ || time >= end_ || (HERE && n == last_ && n > 3.);",
         "^output/|^cli/runs",
     ),
+    Mutant(
+        "contact lost where the element of a facet is divided",
+        "source/contact/facet_choice.cc",
+        "if (has_pressed_ || penetration <= in_line * plane.radius())",
+        "if ((has_pressed_ && !HERE) || penetration <= in_line * plane.radius())",
+        "^cli/refinement$",
+    ),
 )

@@ -12,6 +12,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <sstream>
+#include <vector>
 
 namespace two_blocks_test {
 
@@ -72,12 +73,14 @@ BILLET_MPI_TEST(two_blocks) {
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
     std::cout.rdbuf(silence.rdbuf());
 
+  // What depends on the penalty does so on any number of ranks.
+  const bool is_alone = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
   TwoBlocks blocks(MPI_COMM_WORLD, 6000., false);
   const Vector load = blocks.make_load();
   Vector exact = load, solution = load;
   using Tie = TwoBlocks::Tie;
   for (const Tie tie : {Tie::sticking, Tie::frictionless, Tie::sliding})
-    for (const double penalty : {1., 1e2, 1e4}) {
+    for (const double penalty : is_alone ? std::vector<double>{1., 1e2, 1e4} : std::vector<double>{1e4}) {
       std::ostringstream name;
       name << (tie == Tie::sticking  ? "sticking"
                : tie == Tie::sliding ? "sliding"
