@@ -186,7 +186,9 @@ def numbers_of(folder: Path, file: Path, numdiff: str, ranks: int, command: Sequ
         return f"exit code {code} from: {' '.join(command)}"
     test = command[-1]
     key = test if ranks == 1 else f"{test} on {ranks}"
-    line = next(one for one in file.read_text("utf-8").splitlines() if one.startswith(f"{key}: "))
+    with open(file, encoding="utf-8") as table:
+        fcntl.flock(table, fcntl.LOCK_SH)  # another test may write its line
+        line = next(one for one in table.read().splitlines() if one.startswith(f"{key}: "))
     expected = parse_numbers(line.partition(": ")[2])
     printed = dict(re.findall(r"^number (.*) = (\S+)$", text, re.MULTILINE))
     if UPDATES:

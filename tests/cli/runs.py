@@ -633,6 +633,16 @@ for edits, times in (
 
 
 END = 0.5e-3  # of impact.prm
+
+
+@check("explicit runs write a row of the history in each of its intervals, and one at the end")
+def _() -> None:
+    interval = 0.04e-3
+    times = billet(f"Output: History interval = {interval}", base=IMPACT).column("time")
+    numbers = [math.floor(time / interval * (1 + 1e-9)) for time in times]
+    equal("intervals", [*numbers[:-1], round(times[-1] / END, 9)], [*range(13), 1.0])
+
+
 for edits, expected in (
     ("", [END * i / 20 for i in range(21)]),
     ("Output: Interval = 2e-4", [0.0, 2e-4, 4e-4, END]),
