@@ -107,9 +107,7 @@ with tempfile.TemporaryDirectory() as folder:
 
 with tempfile.TemporaryDirectory() as folder:
     n_cycles = 1000 if options.quick else 100_000
-    cycled = WatchedRun(
-        ROOT / "benchmarks/friction_cycles.prm", {"Time stepping/End time": n_cycles}, folder
-    )
+    cycled = WatchedRun(ROOT / "benchmarks/friction_cycles.prm", {"Time stepping/End time": n_cycles}, folder)
     memory.append(
         [f"{n_cycles} cycles of friction, implicit", int(cycled.rows[-1]["step"])]
         + [number(cycled.at(part), 4) for part in (0.05, 0.5, 1.0)]

@@ -207,7 +207,7 @@ def _() -> None:
         ended = run(*program.on(1, PLANED, "--output", name, *changes))
         require(ended.code == 0, ended.errors)
         forces.append(history(name)[-1]["upper.support head.force_z"])
-    near("force", *forces, 1e-3)
+    near("force", forces[0], forces[1], 1e-3)
 
 
 @check("an impact that is refined in contact")
