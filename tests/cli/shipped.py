@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Mapping
 
 from checks import SHIPPED, near, read_text, require, rows_of, run
 
@@ -38,7 +39,7 @@ def require_balance(rows: Rows) -> None:
         require(abs(row["force_balance_defect"]) <= 1e-12, f"defect {row['force_balance_defect']}")
 
 
-def run_variant(program: str, scene: str, folder: str, changed: dict[str, object]) -> Rows:
+def run_variant(program: str, scene: str, folder: str, changed: Mapping[str, object]) -> Rows:
     """Runs a scene with changes to its end, and returns its history, in which forces balance."""
     options = [part for item in changed.items() for part in ("--set", "{}={}".format(*item))]
     ended = run(program, scene, "--output", folder, "--set", "Output/Format=none", *options)
