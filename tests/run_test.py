@@ -32,7 +32,12 @@ import sys
 from pathlib import Path
 from typing import Sequence
 
-ENVIRONMENT = Path(__file__).resolve().parents[1] / "scripts/environment.sh"
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tools"))
+from billet_tools.fork_server import ForkServer  # noqa: E402
+
+ENVIRONMENT = ROOT / "scripts/environment.sh"
+IS_SANITIZED = "ASAN_OPTIONS" in os.environ  # sanitizers want processes of their own
 
 # Output that differs between runs or versions: deal.II's debug output, negative zeros, and times.
 VOLATILE = (
@@ -53,6 +58,25 @@ MOST_APART = 0.25  # of a count that is held
 NUMDIFF_OPTIONS = ("-a", "1e-6", "-r", "1e-8", "-s", " \\t\\r\\n=,:;<>[](){}^")
 
 
+def set_environment(uses_mpirun: bool) -> None:
+    """Sets what MPI and threads need."""
+    if "BILLET_JOBS" not in os.environ:  # which scripts/test has done already
+        lines = subprocess.run(
+            ["bash", "-c", '. "$0" && env -0', ENVIRONMENT], check=True, capture_output=True, text=True
+        ).stdout.split("\0")
+        os.environ.update(line.partition("=")[::2] for line in lines if line)
+    # Open MPI binds ranks to cores from the first one on: two tests at a time would share it and leave others
+    # idle. The second name is that from Open MPI 6 on. Ranks that wait let others compute.
+    os.environ |= {
+        "OMPI_MCA_hwloc_base_binding_policy": "none",
+        "PRTE_MCA_bindto": "none",
+        "OMPI_MCA_mpi_yield_when_idle": "1",
+    }
+    if not uses_mpirun:
+        # As the program does by itself: one process needs no network, whose search takes time.
+        os.environ |= {"OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self"}
+
+
 def run(folder: Path, command: Sequence[str]) -> int:
     """Runs the command in the folder, which is made anew; what it prints goes to the file stdout. Returns the
     exit code."""
@@ -62,25 +86,15 @@ def run(folder: Path, command: Sequence[str]) -> int:
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     os.chdir(folder)
-    # Open MPI binds ranks to cores from the first one on: two tests at a time would share it and leave others
-    # idle.
-    # up to Open MPI 5, from 6 on
-    # Ranks that wait let others compute.
-    variables = {
-        "OMPI_MCA_hwloc_base_binding_policy": "none",
-        "PRTE_MCA_bindto": "none",
-        "OMPI_MCA_mpi_yield_when_idle": "1",
-    }
-    if not any(Path(word).name.startswith("mpi") for word in command):
-        # As the program does by itself: one process needs no network, whose search takes time.
-        variables |= {"OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self"}
+    set_environment(any(Path(word).name.startswith("mpi") for word in command))
+    program = Path(command[0])
     with open("stdout", "wb") as output:
+        if (program.name == "billet" or program.name.endswith("_tests")) and not IS_SANITIZED:
+            server = ForkServer(program, is_shared=True)
+            server.start(command[1:], folder, output, output)
+            return server.wait()[0]
         return subprocess.run(
-            ["bash", "-c", '. "$0" && exec "$@"', str(ENVIRONMENT), *command],
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=subprocess.STDOUT,
-            env={**os.environ, **variables},
+            command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT
         ).returncode
 
 

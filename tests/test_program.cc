@@ -3,6 +3,7 @@
 #include "checks.h"
 
 #include "billet/run/launch.h"
+#include "billet/run/serve.h"
 #include "billet/usage.h"
 
 #include <deal.II/base/mpi.h>
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -61,15 +64,23 @@ BILLET_COUNT_CALLS(Allgather,
                    (from, n, type, to, n_to, type_to, communicator))
 
 int main(int argc, char *argv[]) {
-  const auto chosen = std::find_if(tests().begin(), tests().end(),
-                                   [&](const Test &test) { return argc > 1 && test.name == argv[1]; });
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words == std::vector<std::string>{"--serve"}) {
+    const auto run = billet::serve_runs();
+    if (!run)
+      return 0;
+    words = *run;
+  }
+  const auto chosen = std::find_if(tests().begin(), tests().end(), [&](const Test &test) {
+    return !words.empty() && test.name == words.front();
+  });
   if (chosen == tests().end()) {
     std::cerr << "Usage: " << argv[0] << " NAME [ARGUMENT...], one of" << std::endl;
     for (const Test &test : tests())
       std::cerr << "  " << test.name << std::endl;
     return 2;
   }
-  billet::testing::arguments().assign(argv + 2, argv + argc);
+  billet::testing::arguments().assign(words.begin() + 1, words.end());
   std::optional<billet::ProcessAlone> alone;
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
   if (chosen->uses_mpi) {

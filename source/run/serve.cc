@@ -3,11 +3,17 @@
 
 #include "billet/errors.h"
 
+#include <csignal>
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+extern "C" { // which this header of glibc 2.36 leaves to others
+#include <sys/pidfd.h>
+}
 
 #include <algorithm>
 #include <array>
@@ -21,6 +27,7 @@ namespace {
 
 constexpr int cannot_start = 126; // as of shells that cannot start a command
 constexpr std::size_t longest_request = std::size_t{1} << 20;
+constexpr int patience = 30000; // milliseconds for which a server waits for someone
 
 struct RunRequest {
   std::vector<std::string> words; ///< folder, variables, an empty word, arguments
@@ -73,9 +80,50 @@ template <typename T> bool answer(const T &value) {
 
 double seconds(const timeval &time) { return time.tv_sec + 1e-6 * time.tv_usec; }
 
+/// Waits for the end of a run, which comes at once if nobody is there to ask for it.
+void wait_for(const pid_t child, RunEnd &end) {
+  const int process = pidfd_open(child, 0);
+  std::array<pollfd, 2> either{{{process, POLLIN, 0}, {STDIN_FILENO, POLLRDHUP, 0}}};
+  while (process >= 0 && poll(either.data(), either.size(), -1) < 0 && errno == EINTR) {
+  }
+  if (process >= 0 && either[0].revents == 0)
+    kill(-child, SIGKILL);
+  close(process);
+  rusage used{};
+  while (wait4(child, &end.status, 0, &used) < 0 && errno == EINTR) {
+  }
+  end.seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// Gives each of those who connect a child of this process, whose standard input their socket is.
+/// Returns whether this process is such a child.
+bool serve_each() {
+  pollfd someone{STDIN_FILENO, POLLIN, 0};
+  while (poll(&someone, 1, patience) > 0) {
+    const int connection = accept(STDIN_FILENO, nullptr, nullptr);
+    if (connection >= 0 && fork() == 0) {
+      dup2(connection, STDIN_FILENO);
+      close(connection);
+      return true;
+    }
+    close(connection);
+    while (waitpid(-1, nullptr, WNOHANG) > 0) {
+    }
+  }
+  return false;
+}
+
+bool listens() {
+  int value = 0;
+  socklen_t size = sizeof value;
+  return getsockopt(STDIN_FILENO, SOL_SOCKET, SO_ACCEPTCONN, &value, &size) == 0 && value != 0;
+}
+
 } // namespace
 
 std::optional<std::vector<std::string>> serve_runs() {
+  if (listens() && !serve_each())
+    return {};
   if (!answer(0))
     throw InputError(
         "command line: '--serve' finds no socket as standard input; allowed is what programs that "
@@ -90,11 +138,9 @@ std::optional<std::vector<std::string>> serve_runs() {
     for (const int output : request.outputs)
       close(output);
     RunEnd end{cannot_start << 8, 0.};
-    rusage used{};
     goes_on = answer(child);
-    while (child > 0 && wait4(child, &end.status, 0, &used) < 0 && errno == EINTR) {
-    }
-    end.seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
+    if (child > 0)
+      wait_for(child, end);
     goes_on = goes_on && answer(end);
   }
   return {};

@@ -165,7 +165,7 @@ def fork_server(program: str) -> ForkServer | None:
     want processes of their own."""
     if IS_SANITIZED or not os.path.isabs(program) or Path(program).name != "billet":
         return None
-    server = ForkServer(program, limit_memory)
+    server = ForkServer(program, limit_memory, is_shared=True)
     return server if server.serves else None
 
 

@@ -5,6 +5,7 @@ processes of their own."""
 from __future__ import annotations
 
 import atexit
+import hashlib
 import os
 import socket
 import struct
@@ -13,6 +14,25 @@ import time
 from pathlib import Path
 from typing import IO, Callable, Mapping, Sequence, Union
 
+Restrict = Union[Callable[[], None], None]
+
+
+def serving(
+    program: str | Path, its_socket: socket.socket, restrict: Restrict, folder: str | None = None
+) -> subprocess.Popen[bytes]:
+    """Starts a process that serves at a socket. `restrict`: sets limits of it, which its children inherit."""
+    with its_socket:
+        return subprocess.Popen(
+            [program, "--serve"],
+            stdin=its_socket.fileno(),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            preexec_fn=restrict,
+            cwd=folder,
+            env={**os.environ, "LD_BIND_NOW": "1"},  # symbols are bound once for all runs
+            start_new_session=True,  # Ctrl-C is of who asks for runs
+        )
+
 
 class ForkServer:
     """One process that serves, one run after the other. A program that cannot serve has none: `serves`."""
@@ -20,31 +40,53 @@ class ForkServer:
     LONGEST = 1 << 19  # bytes of a request
     PATIENCE = 30.0  # seconds to load
 
-    def __init__(self, program: str | Path, restrict: Callable[[], None] | None = None) -> None:
-        """`restrict`: sets limits of the process, which its children inherit."""
-        self._socket, its_socket = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        with its_socket:
-            # symbols are bound once for all runs
-            self._process = subprocess.Popen(
-                [program, "--serve"],
-                stdin=its_socket.fileno(),
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                preexec_fn=restrict,
-                env={**os.environ, "LD_BIND_NOW": "1"},
-                start_new_session=True,  # Ctrl-C is of who asks for runs
-            )
+    def __init__(self, program: str | Path, restrict: Restrict = None, is_shared: bool = False) -> None:
+        """`restrict`: sets limits of the process. `is_shared`: a server for all who ask for the same program
+        in the same environment, which ends half a minute after the last of them."""
+        program = Path(program).resolve()
+        self._process: subprocess.Popen[bytes] | None = None
+        if is_shared:
+            self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+            self._join(program, restrict)
+        else:
+            self._socket, its_socket = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+            self._process = serving(program, its_socket, restrict)
         try:
             self.serves = self._receive("i", self.PATIENCE) is not None
         except TimeoutError:  # it does something else
             self.serves = False
-            self._process.kill()
+            if self._process:
+                self._process.kill()
         atexit.register(self.close)
 
+    def _join(self, program: Path, restrict: Restrict) -> None:
+        """Connects to the shared server, which is started if there is none."""
+        file = program.stat()
+        what = [program, file.st_ino, file.st_mtime_ns, restrict.__name__ if restrict else ""]
+        variables = {name: os.environ[name] for name in os.environ if name not in ("PWD", "OLDPWD", "_")}
+        # A name of Linux that is no file.
+        address = b"\0billet-" + hashlib.sha256(repr((what, sorted(variables.items()))).encode()).digest()
+        for _ in range(1000):
+            try:
+                self._socket.connect(address)
+                return
+            except ConnectionRefusedError:
+                listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+            try:
+                listener.bind(address)
+            except OSError:  # another is about to start it
+                listener.close()
+                time.sleep(0.01)
+                continue
+            listener.listen(64)
+            serving(program, listener, restrict, "/")
+        raise RuntimeError(f"{program} --serve ends at once")
+
     def close(self) -> None:
-        """Ends the server, once its run has ended."""
+        """Ends the run, if one goes on, and the server; a shared one stays."""
         self._socket.close()
-        self._process.wait()
+        if self._process:
+            self._process.wait()
 
     def start(
         self,
@@ -89,7 +131,7 @@ class OwnProcesses:
     """Starts each run as a process of its own, one after the other: a program that cannot serve, or several
     ranks. Same functions as ForkServer."""
 
-    def __init__(self, command: Sequence[str], restrict: Callable[[], None] | None = None) -> None:
+    def __init__(self, command: Sequence[str], restrict: Restrict = None) -> None:
         """`command`: the program, behind the command that starts its ranks if there is one."""
         self._command, self._restrict = list(command), restrict
         self._process: subprocess.Popen[bytes] | None = None
@@ -135,7 +177,7 @@ class OwnProcesses:
 Starter = Union[ForkServer, OwnProcesses]
 
 
-def starter_of(command: Sequence[str], restrict: Callable[[], None] | None = None) -> Starter:
+def starter_of(command: Sequence[str], restrict: Restrict = None) -> Starter:
     """Returns what starts runs of a command: a program, behind the command that starts its ranks if there is
     one."""
     if len(command) == 1:

@@ -19,6 +19,10 @@ namespace billet {
 /// - The answers are the number of the child (int), and when it has ended what waitpid() says of it
 ///   (int) and its seconds of the processor (double).
 ///
+/// Who asked and closes the socket, or is killed, ends the run. Where standard input is a socket
+/// that listens, as that of many tests, each of those who connect is served so, at the same time,
+/// until none has come for half a minute.
+///
 /// Returns the arguments in a child, which leads a group of processes; nothing in this process, at
 /// the end of the requests. To be called before MPI starts. Throws InputError if standard input is
 /// no socket.
