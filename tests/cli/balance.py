@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: balance.py BILLET
 
-Checks every scene of prm/, in one start of the program. Begins them in an empty current folder, some on
-coarser meshes, and stops each some processor time after tools, supports or pairs have begun to bear forces.
-In each line of its history the sum of reactions, contact, loads and inertia is that of the residuals. Those
-that contact_scenes.py, cup_scenes.py, loaded_scenes.py, rubber_scenes.py and sheet_scenes.py run are left
-out: they check this in all lines. Scenes, and the files that they include, must be short.
+Begins scenes of prm/ in an empty current folder, some on coarser meshes, and stops each some processor time
+after tools, supports or pairs have begun to bear forces. In each line of its history the sum of reactions,
+contact, loads and inertia is that of the residuals. Those that contact_scenes.py, cup_scenes.py,
+loaded_scenes.py, rubber_scenes.py and sheet_scenes.py run are left out: they check this in all lines. What no
+script runs as it is shipped is checked, in one start of the program. Scenes, and the files that they include,
+must be short.
 
 Runs switched.prm to its end in every scheme: the columns of tools, supports, loads and inertia have this sum
 while forces fade.
@@ -18,7 +19,6 @@ import math
 import os
 import re
 import signal
-import subprocess
 import sys
 import time
 
@@ -28,6 +28,7 @@ from checks import (
     Checks,
     enter_folder,
     equal,
+    fork_server,
     near,
     read_text,
     require,
@@ -35,6 +36,7 @@ from checks import (
     run,
     write_text,
 )
+from billet_tools.fork_server import OwnProcesses
 from edits import edit
 from shipped import history, require_short
 
@@ -43,9 +45,9 @@ EXTRA = 0.1  # processor time after these lines [s]
 LIMIT = 1e-12  # over the sum of the forces' sizes
 SECONDS = 240.0  # for a scene on a busy machine
 
-# which others run to their ends
+# which others run to their ends, most of them coarser
 ELSEWHERE = (
-    "balloon bracket cyclic_coupon cylindrical_cup drop free_bend o_ring pressurised_cylinder seal"
+    "balloon bracket cyclic_coupon cylindrical_cup drop o_ring pressurised_cylinder seal"
     " slab_rolling slab_rolling_explicit snap_fit square_cup stack step_punch u_bend wagoner_punch_mu_0"
     " wagoner_punch_mu_015"
 ).split()
@@ -65,6 +67,7 @@ COARSER = {
 }
 
 program = os.path.abspath(sys.argv[1])
+starter = fork_server(program) or OwnProcesses([program])
 check = Checks()
 enter_folder()
 
@@ -95,20 +98,22 @@ def processor_time(process: int) -> float:
 def begin(scene: str, folder: str) -> list[dict[str, float]]:
     """Runs a scene for some time after enough lines have forces, or to its end."""
     settings = [part for change in COARSER.get(folder, ()) for part in ("--set", change)]
-    with open(f"{folder}.log", "w", encoding="utf-8") as log, subprocess.Popen(
-        [program, "--quiet", "--output", folder, *settings, scene], stdout=log, stderr=log
-    ) as run:
-        end = time.monotonic() + SECONDS
-        began = math.inf
-        while run.poll() is None and time.monotonic() < end:
-            time.sleep(0.05)
-            spent = processor_time(run.pid)
-            if began == math.inf and sum(map(bears, lines_of(folder)[:-1])) >= N_LINES:
-                began = spent
-            if spent >= began + EXTRA:
-                break
-        run.send_signal(signal.SIGTERM)
-        run.wait()
+    with open(f"{folder}.log", "wb") as log:
+        process = starter.start(["--quiet", "--output", folder, *settings, scene], os.getcwd(), log, log)
+    end = time.monotonic() + SECONDS
+    began = math.inf
+    while time.monotonic() < end:
+        try:
+            starter.wait(0.05)
+            return lines_of(folder)
+        except TimeoutError:
+            spent = processor_time(process)
+        if began == math.inf and sum(map(bears, lines_of(folder)[:-1])) >= N_LINES:
+            began = spent
+        if spent >= began + EXTRA:
+            break
+    os.kill(process, signal.SIGTERM)
+    starter.wait()
     return lines_of(folder)
 
 
@@ -121,9 +126,10 @@ def _() -> None:
         require_short(str(file.relative_to(SHIPPED).with_suffix("")))
 
 
-@check("--check passes every scene")
+@check("--check passes every scene that is not begun as it is")
 def _() -> None:
-    scenes = [str(scene) for scene in sorted(SHIPPED.glob("*.prm"))]
+    names = {scene.stem for scene in SHIPPED.glob("*.prm")} & {*ELSEWHERE, *COARSER}
+    scenes = [str(SHIPPED / f"{name}.prm") for name in sorted(names)]
     ended = run(program, "--check", *scenes)
     require(ended.code == 0, ended.errors)
     equal("scenes", re.findall(r"^Scene +(.*)$", ended.output, re.MULTILINE), scenes)

@@ -3,7 +3,7 @@
 """Usage: cup_scenes.py BILLET
 
 Draws cups in an empty current folder: coarse and short variants of the shipped ones, beside the closed form
-of ears and an experiment. The scenes themselves run in benchmarks.
+of ears. The scenes themselves run in benchmarks.
 """
 
 from __future__ import annotations
@@ -51,23 +51,18 @@ def _() -> None:
     require(spread < 0.01 * (max(found) - min(found)), f"the isotropic flange is not round by {spread}")
 
 
-@check("the square cup begins symmetric about its diagonal, and is drawn in as NUMISHEET'93 measured")
+@check("the square cup begins symmetric about its diagonal")
 def _() -> None:
-    # Heavier, whose kinetic energy at the end is below 1e-3 of the work, it takes less than half the steps.
-    changes = {"Explicit dynamics/Mass scaling step": 2.5e-7, "Time stepping/End time": 1.5e-3}
-    rows = run_variant(program, str(SHIPPED / "square_cup.prm"), "square_cup", {**changes})
-    begin, last = [row for row in rows if row["time"] < 2e-4], rows[-1]
-    require(begin[-1]["punch.travel_z"] < -0.2, f"the punch has gone {begin[-1]['punch.travel_z']}")
-    for row in begin:
+    # benchmarks/square-cup.py draws it to the end, beside the experiment.
+    rows = run_variant(
+        program, str(SHIPPED / "square_cup.prm"), "square_cup", {"Time stepping/End time": 2e-4}
+    )
+    require(rows[-1]["punch.travel_z"] < -0.2, f"the punch has gone {rows[-1]['punch.travel_z']}")
+    for row in rows:
         across = abs(row["corner.displacement_x"] - row["corner.displacement_y"])
         require(across <= 1e-9, f"the corner moves {across} off the diagonal")
-    require(begin[-1]["plastic_work"] > 0, "nothing yields")
-    require(abs(begin[-1]["energy_drift"]) < 1e-3, f"energy drifts by {begin[-1]['energy_drift']}")
-    near("travel of the punch", last["punch.travel_z"], -15.0, 1e-4)
-    # Mean of the laboratories, as in benchmarks/square-cup.py. It is off by -1.1 %, without
-    # friction by 6.5 %. The middle of the edge is no measure: -10.2 %, without friction 1.9 %.
-    draw_in = math.hypot(last["corner.displacement_x"], last["corner.displacement_y"])
-    near("draw-in along the diagonal", draw_in, 3.2, 0.04)
+    require(rows[-1]["plastic_work"] > 0, "nothing yields")
+    require(abs(rows[-1]["energy_drift"]) < 1e-3, f"energy drifts by {rows[-1]['energy_drift']}")
 
 
 @check("pages")

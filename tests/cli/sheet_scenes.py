@@ -3,8 +3,8 @@
 """Usage: sheet_scenes.py BILLET
 
 Runs sheets that are bent and spring back in an empty current folder: pure bending beside its closed form,
-and coarse and short variants of the shipped U-bend and free bend beside what geometry and strip theory say.
-The scenes themselves run in benchmarks. cup_scenes.py runs the cups.
+and a coarse and short variant of the shipped U-bend beside what strip theory says. The scenes themselves run
+in benchmarks, the free bend only there. cup_scenes.py runs the cups.
 """
 
 from __future__ import annotations
@@ -40,25 +40,6 @@ def _() -> None:
             moment, part = read_release(rows)
             near(f"{name}: moment", moment, exact[0], tolerance)
             near(f"{name}: springback", part, exact[1], tolerance)
-
-
-@check("the free bend closes to the angle of its tools, and springs back")
-def _() -> None:
-    rows = run_variant(
-        program,
-        str(SHIPPED / "free_bend.prm"),
-        "free_bend",
-        {"Bodies/strip/Mesh/Arguments": "60, 1 : 0, 0 : 60, 1"},
-    )
-    formed = next(row for row in rows if abs(row["time"] - 1) < 1e-9)
-    # The outer face of the strip, 24.5 around the punch, touches the shoulder of 4 along a straight leg.
-    distance, tilt = math.hypot(29, 1), math.atan2(1, 29)
-    tangent = 2 * math.degrees(math.acos((24.5 + 4) / distance) + tilt)
-    opening = 180 - 2 * slope(formed, 5)
-    require(abs(opening - tangent) < 6, f"the strip is formed to {opening}, tools allow {tangent}")
-    springback = 2 * (slope(formed, 5) - slope(rows[-1], 5))
-    require(30 < springback < 42, f"it springs back by {springback}")
-    require(abs(rows[-1]["energy_drift"]) < 1e-2 * rows[-1]["plastic_work"], "energies do not balance")
 
 
 @check("the wall of the U-bend bears what friction and bending take, and springs back")

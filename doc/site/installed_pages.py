@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: installed_pages.py BILLET BUILD CMAKE
-       installed_pages.py FOLDER
+"""Usage: installed_pages.py BUILD
 
-Installs the build tree BUILD into an empty current folder. Each link of its pages must lead to a file and to
-a heading that are installed: of the site if it was built, and of its pages in Markdown, which an installation
-has without the site. With FOLDER alone it looks for dead links in what is installed there.
+Installs the build tree BUILD into a folder that is removed again. Each link of its pages must lead to a file
+and to a heading that are installed: of the site if it was built, and of its pages in Markdown, which an
+installation has without the site. Exit code 1: there are dead links.
 """
 
 from __future__ import annotations
@@ -15,14 +14,14 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from functools import lru_cache
 from pathlib import Path
 from urllib.parse import unquote
 
-from checks import HERE, Checks, require
+from plain import anchors_of
 
-sys.path.insert(0, str(HERE.parents[1] / "doc/site"))
-from plain import anchors_of  # type: ignore[import]  # noqa: E402
+ASSEMBLE = Path(__file__).resolve().parent / "assemble.py"
 
 IN_MARKDOWN = re.compile(r"!?\[(?:[^\[\]]|!?\[[^\[\]]*\](?:\([^()]*\))?)*\]\(([^()\s]+)\)")
 INNER = re.compile(r"!\[[^\]]*\]\(([^()\s]+)\)")
@@ -66,61 +65,46 @@ def dead_links(folder: Path) -> list[str]:
     return dead
 
 
-def require_links(folder: Path) -> None:
-    """Fails with the first dead links of a folder."""
+def report(folder: Path, of: str) -> bool:
+    """Prints how many links of a folder are dead, and the first of them. Returns whether none is."""
     dead = dead_links(folder)
     n_pages = sum(path.suffix in (".html", ".md") for path in folder.rglob("*"))
-    require(n_pages > 50, f"{n_pages} pages")
-    require(not dead, f"{len(dead)} dead links:\n" + "\n".join(dead[:20]))
+    print("\n".join([f"{len(dead)} dead links in {n_pages} pages {of}", *dead[:20]]))
+    return not dead and n_pages > 50
 
 
-def call(*command: str) -> None:
-    """Runs a command, which must succeed."""
-    ended = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8")
-    require(ended.returncode == 0, f"{' '.join(command)}:\n{ended.stdout[-3000:]}")
-
-
-if len(sys.argv) == 2:
-    found = dead_links(Path(sys.argv[1]))
-    print("\n".join([*found, f"{len(found)} dead links"]))
-    sys.exit(1 if found else 0)
-
-program, build, cmake = sys.argv[1:]
-check = Checks()
-here = Path.cwd()
-documents = here / "installed/share/doc/billet"
-call(cmake, "--install", build, "--prefix", str(here / "installed"))
-
-
-@check("links of what is installed resolve")
-def _() -> None:
-    require_links(documents)
-
-
-@check("the site is installed alone, or else Markdown")
-def _() -> None:
-    has_site = (documents / "html/index.html").exists()
-    require(has_site != (documents / "index.md").exists(), "both or none")
-
-
-@check("links of the pages in Markdown resolve")
-def _() -> None:
-    assemble = str(HERE.parents[1] / "doc/site/assemble.py")
-    call(sys.executable, "-B", assemble, str(here / "pages"), "--program", program, "--plain")
-    shutil.rmtree(documents / "html", ignore_errors=True)
-    shutil.copytree(here / "pages/doc", documents, dirs_exist_ok=True)
-    require_links(documents)
-
-
-@check("a dead link is found")
-def _() -> None:
-    page = documents / "index.md"
+def finds_dead_links(page: Path) -> bool:
+    """Returns whether two dead links on a page are found."""
     text = page.read_text(encoding="utf-8")
-    page.write_text(
-        text + "\n[One](nowhere.md), [two](start.md#nowhere), [three](start.md).\n", encoding="utf-8"
-    )
-    require(len(dead_links(documents)) == 2, str(dead_links(documents)))
+    links = "[One](nowhere.md), [two](start.md#nowhere), [three](start.md)."
+    page.write_text(f"{text}\n{links}\n", encoding="utf-8")
+    n_found = len(dead_links(page.parent))
     page.write_text(text, encoding="utf-8")
+    return n_found == 2
 
 
-sys.exit(check.finish())
+def main() -> int:
+    """Returns the exit code."""
+    build = Path(sys.argv[1]).resolve()
+    with tempfile.TemporaryDirectory() as folder:
+        place, pages = Path(folder, "installed"), Path(folder, "pages")
+        install = ["cmake", "--install", str(build), "--prefix", str(place)]
+        subprocess.run(install, check=True, stdout=subprocess.DEVNULL)
+        documents = place / "share/doc/billet"
+        is_sound = report(documents, "that are installed")
+        if (documents / "html/index.html").exists() == (documents / "index.md").exists():
+            print("the site and its pages in Markdown are installed, or neither")
+            is_sound = False
+        assemble = [sys.executable, "-B", str(ASSEMBLE), str(pages), "--program", str(build / "bin/billet")]
+        subprocess.run([*assemble, "--plain"], check=True, stdout=subprocess.DEVNULL)
+        shutil.rmtree(documents / "html", ignore_errors=True)
+        shutil.copytree(pages / "doc", documents, dirs_exist_ok=True)
+        is_sound = report(documents, "in Markdown") and is_sound
+        if not finds_dead_links(documents / "index.md"):
+            print("this script finds no dead links")
+            is_sound = False
+    return 0 if is_sound else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
