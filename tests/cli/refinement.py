@@ -47,8 +47,9 @@ ROUGH = "top on die: + set Friction coefficient = 0.3"
 LAYERS = ("mean dilatation", "assumed strain", "one point")
 
 
+@functools.cache
 def runs(base: str, edits: str, ranks: int = 1) -> Run:
-    """Returns a run that must succeed."""
+    """Returns a run that must succeed; what several checks look at is run once."""
     result = runner.run(base, edits, ranks=ranks)
     require(result.ended.code == 0, f"exit code {result.ended.code}: {result.complained}{result.said[-500:]}")
     return result
@@ -89,8 +90,8 @@ for element in LAYERS:
 
 @check("uniform upsetting, refined twice")
 def _() -> None:
-    coarse = runs(BLOCK, "")
-    refined = runs(BLOCK, "block: + set Refinement times = 0.3, 0.7")
+    coarse = runs(BLOCK, "block: + set Element = assumed strain")
+    refined = runs(BLOCK, "block: + set Element = assumed strain\nset Refinement times = 0.3, 0.7")
     for column in STATIC:
         difference = worst(coarse, refined, column)
         require(difference < 1e-8, f"{column} differs by {difference}")
@@ -140,7 +141,7 @@ IMPACTS = {
     "hypoelastic": "Material: + set Elasticity = hypoelastic",
     "elastic": "Material: - Yield stress & Material: - Hardening modulus",
     "float": "+ subsection Explicit dynamics\\n set Number type = float\\nend",
-    "implicit": "Time stepping: Scheme = implicit dynamics & Time stepping: End time = 5e-6",
+    "implicit": "Time stepping: Scheme = implicit dynamics & Time stepping: End time = 3.5e-6",
 }
 MOTION = ("wall.force_z", "kinetic_energy", "plastic_work", "momentum_z")
 EARLY = "block: + set Refinement times = 1e-6"
@@ -155,18 +156,12 @@ for name, shape in IMPACTS.items():
         require(abs(float(note(refined)[1])) < 1e-9 * refined.column("kinetic_energy")[0], "energy is made")
 
 
-@functools.cache
-def coarse_stack() -> Run:
-    """Returns the run of the stack that is not refined."""
-    return runs(STACK, "")
-
-
 for body in ("upper", "lower", "both"):
 
     @check(f"friction sticks while a mesh is refined: {body}")
     def _() -> None:
         bodies = ("upper", "lower") if body == "both" else (body,)
-        coarse = coarse_stack()
+        coarse = runs(STACK, "")
         refined = runs(STACK, combined(*(f"{name}: + set Refinement times = 0.5" for name in bodies)))
         fine = runs(STACK, combined(*(f"Bodies / {name} / Mesh: + set Refinements = 1" for name in bodies)))
         force = "upper.support ram.force_x"
@@ -256,11 +251,11 @@ ELASTIC = combined(
     "block: Initial velocity = 0 ; 0 ; -2e3",
     "block / Mesh: Arguments = 2, 2, 2 : 0, 0, 0.0005 : 1, 1, 1.0005 : true",
     "block: + set Refinement times = 5e-7",
-    "Time stepping: End time = 2e-6",
+    "Time stepping: End time = 1e-6",
 )
 for name, base, edits, at in (
     ("block", BLOCK, combined(ROUGH, HALF, EVERY), 4),
-    ("impact", IMPACT, combined(EARLY, OFTEN), 1),
+    ("impact", IMPACT, combined(EARLY, OFTEN, "Time stepping: End time = 4e-6"), 1),
     ("elastic impact", IMPACT, combined(ELASTIC, OFTEN.replace("0.5e-6", "1e-7")), 4),
 ):
 
@@ -290,38 +285,34 @@ def _() -> None:
 
 
 QUICKLY = {
-    "Bodies/strip/Refinement times": "5e-4",
+    "Bodies/strip/Refinement times": "3e-4",
     "Tools/punch/Motion/Translation": "0 ; 0 ; -3e3*t",
     "Time stepping/End time": "1e-3",
 }
 
 
-def on_cylinder(name: str, *changes: str) -> dict[str, float]:
-    """Returns the last row of the strip on the cylinder."""
-    settings = [part for change in changes for part in ("--set", change)]
-    ended = run(*program.on(1, "refined_on_cylinder.prm", "--output", name, *settings))
-    require(ended.code == 0, ended.output + ended.errors)
-    return history(name)[-1]
-
-
 @check("finer elements on a curved tool, whose new nodes would lie inside it")
 def _() -> None:
-    never = "Bodies/strip/Refinement times="
-    coarse = on_cylinder("coarse", never)
-    fine = on_cylinder("fine", never, "Bodies/strip/Mesh/Refinements=1")
-    refined = on_cylinder("refined", "Bodies/strip/Refinement times=0.1")
-    for column, least_gain in (("punch.force_z", 10), ("plastic_work", 3)):
-        before, after = (abs(of[column] / fine[column] - 1) for of in (coarse, refined))
-        require(after < before / least_gain, f"{column}: error {after}, of the coarse mesh {before}")
-    drift = abs(refined["energy_drift"]) / refined["external_work"]
+    early = ("--set", "Bodies/strip/Refinement times=0.1")
+    ended = run(*program.on(1, "refined_on_cylinder.prm", "--output", "refined", *early))
+    require(ended.code == 0, ended.output + ended.errors)
+    last = history("refined")[-1]
+    # of a mesh fine from the start; the coarse one is off by 3.6e-2 and 3.2e-2
+    near("force", last["punch.force_z"], -10.910, 3.6e-3)
+    near("plastic work", last["plastic_work"], 24.674, 1.06e-2)
+    drift = abs(last["energy_drift"]) / last["external_work"]
     require(drift < 1e-3, f"energy drift of {drift}")
+
+
+PRESS = "refined_press.prm"
+STORED = ("--set", "Output/Checkpoint/Interval=1e-4", "--set", "Output/Checkpoint/Keep=50")
 
 
 @check("so in an explicit press")
 def _() -> None:
-    ended = run(*program.on(1, "refined_press.prm", "--output", "press"))
+    ended = run(*program.on(1, PRESS, "--output", "moving", *STORED))
     require(ended.code == 0, ended.errors)
-    last = history("press")[-1]
+    last = history("moving")[-1]
     energy = float(says(r"The energy changes by (\S+)", ended.output)[1])
     require(abs(energy) < 0.03 * last["external_work"], f"the refinement makes {energy}")
     near("force", last["punch.force_z"], -297.3, 4e-3)  # of a mesh fine from the start; coarse: 8e-3
@@ -339,7 +330,6 @@ def _() -> None:
     require(abs(energy) < 0.5 * work, f"the refinement makes {energy} of {work}")
 
 
-PRESS = "refined_press.prm"
 FINE_FORCE = -297.8  # static, of a mesh fine from the start
 NEVER = ("--set", "Bodies/block/Refinement times=")
 STATIC_PRESS = ("--set", "Time stepping/Scheme=static")
@@ -356,10 +346,9 @@ def _() -> None:
 
 @check("a press goes on in the other scheme after its refinement")
 def _() -> None:
-    stored = ("--set", "Output/Checkpoint/Interval=1e-4", "--set", "Output/Checkpoint/Keep=50")
-    for name, first, second in (("moving", (), STATIC_PRESS), ("resting", STATIC_PRESS, ())):
-        ended = run(*program.on(1, PRESS, "--output", name, *stored, *first))
-        require(ended.code == 0, ended.errors)
+    ended = run(*program.on(1, PRESS, "--output", "resting", *STORED, *STATIC_PRESS))
+    require(ended.code == 0, ended.errors)
+    for name, second in (("moving", STATIC_PRESS), ("resting", ())):
         checkpoint = sorted(glob(f"{name}/checkpoint_*.h5"))[6]
         ended = run(*program.on(1, PRESS, "--restart", checkpoint, "--output", f"after_{name}", *second))
         require(ended.code == 0, ended.errors)
@@ -401,11 +390,12 @@ for scheme in ("static", "explicit"):
 
 @check("so are those that would penetrate a curved body in one pass, but not in two")
 def _() -> None:
-    scene = ("refined_on_body.prm", "--output", "on_body")
+    early = ("--set", "Bodies/block/Refinement times=2e-4")
+    scene = ("refined_on_body.prm", "--output", "on_body", *early)
     ended = run(*program.on(1, *scene))
     require(ended.code == 3, f"exit code {ended.code}")
     says("Contact springs would gain an energy of .* 'Passes = two', or finer elements", ended.errors)
-    until = ("--set", "Time stepping/End time=6e-4")  # soon after the refinement
+    until = ("--set", "Time stepping/End time=2.5e-4")  # soon after the refinement
     ended = run(*program.on(1, *scene, "--set", "Contact pairs/top/Passes=two", *until))
     require(ended.code == 0, ended.errors)
 

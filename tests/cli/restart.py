@@ -149,7 +149,7 @@ for which, what in RESUMED.items():
             shutil.copytree(folder, f"{folder}.whole")
 
         checkpoints = checkpoints_of(folder)
-        numbers = (0, 1, 2, len(checkpoints) - 2)
+        numbers: tuple[int, ...] = (0, 1, 2, len(checkpoints) - 2)
         if ranks > 1:
             numbers = (len(checkpoints) // 2,)
         elif which == "aimed lower":
