@@ -88,13 +88,15 @@ double dot(const Positions &v, const Positions &w) {
 
 void check_tangents(const FacetMethod method, const FrictionPointer &law, const std::string &name,
                     const double bulge = 0.) {
+  const bool has_friction = law != nullptr;
   Random random;
   Balls balls(method, law, bulge);
   RandomMotion motion(random, 2, 4e-3);
   Positions whole = balls.surface.positions;
   WorstError exact, numerical, symmetric;
   std::array<double, 3> n_status{};
-  for (unsigned int step = 0; step < 9; ++step) {
+  const unsigned int n_steps = method == FacetMethod::overlap ? 4 : 9; // overlaps take twenty times as long
+  for (unsigned int step = 0; step < n_steps; ++step) {
     motion.advance(balls.surface, balls.surface.slaves(), whole, Tensor<1, 3>());
     balls.x = balls.part.take(whole);
     balls.forces_at(balls.x);
@@ -107,9 +109,10 @@ void check_tangents(const FacetMethod method, const FrictionPointer &law, const 
     }
     const Positions by_exact = balls.product(ContactTangent::exact, v),
                     by_numerical = balls.product(ContactTangent::numerical, v);
-    symmetric.add(std::abs(dot(w, balls.product(ContactTangent::consistent, v)) -
-                           dot(v, balls.product(ContactTangent::consistent, w))) /
-                  (norm(by_exact) * norm(w)));
+    if (!has_friction)
+      symmetric.add(std::abs(dot(w, balls.product(ContactTangent::consistent, v)) -
+                             dot(v, balls.product(ContactTangent::consistent, w))) /
+                    (norm(by_exact) * norm(w)));
     // Fourth order; a node that changes facet within so little is unlikely.
     Positions difference(v.size());
     const double h = 5e-8;
@@ -136,7 +139,6 @@ void check_tangents(const FacetMethod method, const FrictionPointer &law, const 
   }
   check(name + ": exact tangent", exact.value(), 1e-6);
   check(name + ": numerical tangent", numerical.value(), 1e-6);
-  const bool has_friction = law != nullptr;
   if (!has_friction)
     check(name + ": consistent tangent is symmetric", symmetric.value(), 1e-13);
   check(name + ": contact is as meant", n_status[2] > 30. && (!has_friction || n_status[1] > 30.));

@@ -95,7 +95,7 @@ SharedLaw make_law(const ElasticModuli &moduli, SharedFlow flow) {
                                                                    RememberingElasticity(moduli));
 }
 
-constexpr double stretch = 1.05, explicit_duration = 2e-4;
+constexpr double stretch = 1.05, explicit_duration = 5e-5;
 const std::string remembering = "set Law = elastic\nset Elasticity = remembering\nset Young modulus = "
                                 "200e3\nset Poisson ratio = 0.3";
 

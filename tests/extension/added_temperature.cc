@@ -21,7 +21,7 @@ using billet::testing::refusal;
 namespace {
 
 constexpr double expansion = 1e-4, warmest = 400.; // 1/K, K: ln θ = α T = 0.04
-constexpr double explicit_duration = 2e-4;
+constexpr double explicit_duration = 5e-5;
 
 /// W = W_Hencky(F/θ) per undeformed volume, ln θ = α T.
 class ExpandingElasticity {
@@ -77,7 +77,7 @@ SharedLaw make_law(const ElasticModuli &moduli, SharedFlow flow) {
   return std::make_shared<const LawAdapter<ExpandingElasticity>>("expanding", ExpandingElasticity(moduli));
 }
 
-std::string duration_of(const bool is_explicit) { return is_explicit ? "2e-4" : "1"; }
+std::string duration_of(const bool is_explicit) { return is_explicit ? "5e-5" : "1"; }
 
 parameters::Scene read_scene(const std::string &element, const std::string &temperature, const double stretch,
                              const bool is_explicit, const std::string &law = "expanding") {

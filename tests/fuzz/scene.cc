@@ -54,6 +54,6 @@ Outcome judge(const std::string &bytes) {
   }
 }
 
-BILLET_FUZZ_TARGET_OF(scene, 120) // all parameters are declared for each: 15 ms
+BILLET_FUZZ_TARGET_OF(scene, 50) // all parameters are declared for each: 15 ms
 
 } // namespace scene_test

@@ -292,7 +292,7 @@ void check_extents(const std::string &original) {
 BILLET_TEST(damaged_cad) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
   const auto &given = billet::testing::arguments();
-  const unsigned int n_files = given.empty() ? 60 : static_cast<unsigned int>(std::stoul(given[0]));
+  const unsigned int n_files = given.empty() ? 25 : static_cast<unsigned int>(std::stoul(given[0]));
   check_texts();
   STEPControl_Writer step;
   step.Transfer(plate(false), STEPControl_AsIs);

@@ -66,14 +66,22 @@ void test_built_in_laws() {
   FlowRule chaboche;
   chaboche.backstress = {{60000., 600.}, {12000., 100.}, {1500., 0.}};
   require_pass("Chaboche", make_hencky_law(steel, make_hardening(voce), chaboche));
+  // Viscous with each energy and with each volumetric law, not with each pair of them.
   const PronySeries series{{0.3, 0.2}, {0.01, 1.}};
-  for (const auto &[name, energy] : rubber_energies())
-    for (const auto &type : volumetric_law_types()) {
+  const auto &volumes = volumetric_law_types();
+  const auto n_types = static_cast<std::size_t>(std::distance(volumes.begin(), volumes.end()));
+  std::size_t n_energies = 0;
+  for (const auto &[name, energy] : rubber_energies()) {
+    std::size_t n_volumes = 0;
+    for (const auto &type : volumes) {
       const std::string label = name + ", volume " + type.name;
       require_pass(label, make_hyperelastic_law(HyperelasticLaw(name, energy, volume(type.name)), {}));
-      require_pass(label + ", viscous",
-                   make_hyperelastic_law(HyperelasticLaw(name, energy, volume(type.name)), series));
+      if (n_volumes++ == n_energies % n_types)
+        require_pass(label + ", viscous",
+                     make_hyperelastic_law(HyperelasticLaw(name, energy, volume(type.name)), series));
     }
+    ++n_energies;
+  }
 }
 
 enum class Error {

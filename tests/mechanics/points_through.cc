@@ -142,7 +142,7 @@ std::vector<double> bend(const unsigned int n, const bool is_plane_strain,
   std::vector<double> moments;
   double q = 0., done = 0.;
   for (const double multiple : multiples) {
-    const unsigned int n_steps = 40;
+    const unsigned int n_steps = 15;
     const double begin = done;
     for (unsigned int step = 1; step <= n_steps; ++step) {
       done = begin + (multiple - begin) * step / n_steps;
