@@ -40,11 +40,15 @@ from checks import (
 )
 
 
+NO_FIELDS = "set Output/Format = none\n"
+
+
 def scene_text(name: str) -> str:
-    """Returns the text of the scene of this name."""
+    """Returns the text of the scene of this name, without field output."""
     for folder in (HERE / "doubtful", HERE, HERE / "files", SHIPPED):
         if (folder / f"{name}.prm").exists():
-            return read_scene(folder / f"{name}.prm")
+            text = read_scene(folder / f"{name}.prm")
+            return text if re.search(r"^ *set Format ", text, re.MULTILINE) else text + NO_FIELDS
     raise ValueError(f"there is no scene '{name}'")
 
 
