@@ -66,6 +66,7 @@ def billet(material: str, end: float = 0.5) -> str:
     text = read_text(SHIPPED / "billet_upsetting.prm")
     text = re.sub(r"(subsection Material\n).*?(\n    end\n)", rf"\1{material}\2", text, flags=re.DOTALL)
     text = re.sub(r"set End time .*", f"set End time = {end}\n  set Step control = fixed", text)
+    text = re.sub(r"subsection Output\n", r"subsection Output\n  set Format = none\n", text)
     return text.replace("set Layers       = 5", "set Layers = 3")
 
 
@@ -87,6 +88,17 @@ def refusal(scene: str) -> str:
     ended = go(scene, "refused")
     require(ended.code == 2 and not Path("refused").exists(), f"code {ended.code}: {ended.errors}")
     return ended.errors
+
+
+def refusals(*scenes: str) -> list[str]:
+    """Returns what one check says of each of these scenes, which it refuses."""
+    files = [f"refused_{i}.prm" for i in range(len(scenes))]
+    for file, scene in zip(files, scenes):
+        write_text(file, scene)
+    ended = run(program.path, "--check", *files)
+    require(ended.code == 2, f"code {ended.code}: {ended.errors}")
+    pattern = r"^error\[bad-input\]: {}.*(?:\n(?!error\[).*)*"
+    return ["".join(re.findall(pattern.format(file), ended.errors, re.MULTILINE)) for file in files]
 
 
 def says(text: str, *parts: str) -> None:
@@ -126,7 +138,9 @@ def _() -> None:
 
 @check("two ranks have the forces of one")
 def _() -> None:
-    for one, two in zip(history("umat"), finish(billet(umat()), "two", ranks=2)):
+    rows = finish(billet(umat(), 0.2), "two", ranks=2)
+    require(len(rows) > 5, f"{len(rows)} rows")
+    for one, two in zip(history("umat"), rows):
         near("force", two["die.force_z"], one["die.force_z"], 1e-6)
 
 
@@ -158,7 +172,7 @@ def _() -> None:
 @check("state variables are fields under their names")
 def _() -> None:
     scene = billet(umat(), 0.1).replace(
-        "subsection Output\n", "subsection Output\n  set State fields = equivalent plastic strain, clock\n"
+        "set Format = none\n", "set State fields = equivalent plastic strain, clock\n"
     )
     finish(scene, "fields")
     files = sorted(Path("fields").rglob("*.vtu"))
@@ -203,7 +217,7 @@ end
 @check("an explicit pull has the forces of the hypoelastic law")
 def _() -> None:
     for element in ("assumed strain", "mean dilatation"):
-        mine = finish(pulled_cube(element, OWN), "own_pull")
+        mine = finish(pulled_cube(element, OWN), f"own_pull_{element}")
         rows = finish(pulled_cube(element, umat()), "umat_pull")
         name = "cube.support top.force_z"
         largest = max(abs(row[name]) for row in mine)
@@ -226,16 +240,16 @@ def without_density(scene: str) -> str:
 @check("a VUMAT has them, too, with its energies")
 def _() -> None:
     for element in ("assumed strain", "mean dilatation"):
-        mine = finish(pulled_cube(element, OWN), "own_pull")[-1]
+        mine = history(f"own_pull_{element}")[-1]
         row = finish(without_density(pulled_cube(element, vumat())), "vumat_pull")[-1]
         name = "cube.support top.force_z"
         near(element, row[name], mine[name], 0.01)
         near(f"{element}, plastic work", row["plastic_work"], mine["plastic_work"], 0.01)
 
 
-@check("a VUMAT runs in the static billet, its tangent by differences, on two ranks")
+@check("a VUMAT runs in the static billet, its tangent by differences")
 def _() -> None:
-    rows = finish(billet(vumat(), 0.2), "vumat", ranks=2)
+    rows = finish(billet(vumat(), 0.2), "vumat")
     for mine, row in zip(history("own"), rows):
         near("force", row["die.force_z"], mine["die.force_z"], 0.005)
 
@@ -248,10 +262,10 @@ def certify(name: str, *options: str) -> Ended:
 
 @check("elements with one point are refused: their stabilisation would not yield")
 def _() -> None:
-    explicit = pulled_cube("one point", umat()), without_density(pulled_cube("one point", vumat()))
-    for scene in explicit:
+    scenes = pulled_cube("one point", umat()), without_density(pulled_cube("one point", vumat()))
+    for refused in refusals(*scenes):
         says(
-            refusal(scene),
+            refused,
             "'Element'",
             "'one point'",
             "'Element = assumed strain' or 'Element = mean dilatation', since the law is a subroutine",
@@ -302,11 +316,14 @@ def _() -> None:
 
 @check("writing outside of an array is refused, with the material and the array")
 def _() -> None:
-    for name, array in {"BEYOND STATEV": "STATEV", "FAR BEYOND STATEV": "STATEV"}.items():
-        says(refusal(billet(umat(name))), f"UMAT '{name}'", f"wrote outside of the array {array}", "NSTATV")
-    says(refusal(billet(umat("BEYOND STRESS"))), "wrote outside of the array STRESS")
-    for name in ("BEYOND STATENEW", "FAR BEYOND STATENEW"):
-        says(refusal(billet(vumat(name))), f"VUMAT '{name}'", "wrote outside of the array stateNew")
+    umats, vumats = ("BEYOND STATEV", "FAR BEYOND STATEV"), ("BEYOND STATENEW", "FAR BEYOND STATENEW")
+    scenes = [*(billet(umat(name)) for name in umats), *(billet(vumat(name)) for name in vumats)]
+    refused = refusals(*scenes, billet(umat("BEYOND STRESS")))
+    for name, text in zip(umats, refused):
+        says(text, f"UMAT '{name}'", "wrote outside of the array STATEV", "NSTATV")
+    for name, text in zip(vumats, refused[2:]):
+        says(text, f"VUMAT '{name}'", "wrote outside of the array stateNew")
+    says(refused[-1], "wrote outside of the array STRESS")
 
 
 @check("a UMAT that changes PROPS changes them for itself alone")
@@ -380,9 +397,15 @@ def _() -> None:
 
 @check("a VUMAT without density, and libraries of the other kind, are refused")
 def _() -> None:
-    says(refusal(billet(vumat().replace("set Density", "# set Density"))), "'Density'")
-    says(refusal(billet(vumat().replace("libvumat", "libumat"))), "symbol 'vumat_'")
-    says(refusal(billet(umat().replace("libumat", "libvumat"))), "symbol 'umat_'")
+    for text, part in zip(
+        refusals(
+            billet(vumat().replace("set Density", "# set Density")),
+            billet(vumat().replace("libvumat", "libumat")),
+            billet(umat().replace("libumat", "libvumat")),
+        ),
+        ("'Density'", "symbol 'vumat_'", "symbol 'umat_'"),
+    ):
+        says(text, part)
 
 
 @check("the UMAT's shorter step is taken")
@@ -397,7 +420,7 @@ for name, words in {
     "ZERO": "crashed by an arithmetic exception",
     "XIT": "ended the analysis by XIT",
 }.items():
-    for ranks in (1, 2):
+    for ranks in (1, 2) if name == "CRASH" else (1,):
 
         @check(f"{name} on {ranks} ranks is named, and the run keeps its results")
         def _() -> None:
@@ -467,42 +490,32 @@ def _() -> None:
     )
 
 
-@check("a file that is no library is refused")
-def _() -> None:
-    says(
-        refusal(billet(umat().replace("libumat.so", "scene.prm"))), "the system can load", "gfortran -shared"
-    )
-
-
-@check("a library without umat_ is refused")
+@check("no library is refused, as is one without umat_, or that lacks a subroutine, by its name")
 def _() -> None:
     write_text("other.f90", "subroutine vumat\nend subroutine\n")
     compile_library("libother.so", "other.f90")
-    says(refusal(billet(umat().replace("libumat", "libother"))), "symbol 'umat_'", "nm -D")
-
-
-@check("a library that lacks a subroutine is refused by its name")
-def _() -> None:
     write_text("lacking.f90", "subroutine umat\n call kdamage\nend subroutine\n")
     compile_library("liblacking.so", "lacking.f90")
-    says(refusal(billet(umat().replace("libumat", "liblacking"))), "kdamage_")
+    names = ("scene.prm", "libother.so", "liblacking.so")
+    for text, parts in zip(
+        refusals(*(billet(umat().replace("libumat.so", name)) for name in names)),
+        (("the system can load", "gfortran -shared"), ("symbol 'umat_'", "nm -D"), ("kdamage_",)),
+    ):
+        says(text, *parts)
 
 
 @check("parameters that do not fit are refused")
 def _() -> None:
-    says(
-        refusal(billet(umat(more="set Yield stress = 700"))), "'Yield stress'", "'Law = UMAT' does not use it"
+    cases = (
+        (umat(more="set Yield stress = 700"), "'Yield stress'", "'Law = UMAT' does not use it"),
+        (umat(more="set Young modulus = 7"), "'Young modulus'", "'Law = UMAT' does not use it"),
+        (umat(more="set Initial state variables = 0, 1"), "as many numbers as 'State variables' says"),
+        (umat(more="set Temperature = 20"), "'Temperature'", "does not depend on it"),
+        (umat(constants="200e3, -1.5, 7, 3"), "shear modulus", "both must be above 0"),
+        (OWN + "\n set Constants = 1, 2\n", "'Constants'", "does not use it"),
     )
-    says(
-        refusal(billet(umat(more="set Young modulus = 7"))), "'Young modulus'", "'Law = UMAT' does not use it"
-    )
-    says(
-        refusal(billet(umat(more="set Initial state variables = 0, 1"))),
-        "as many numbers as 'State variables' says",
-    )
-    says(refusal(billet(umat(more="set Temperature = 20"))), "'Temperature'", "does not depend on it")
-    says(refusal(billet(umat(constants="200e3, -1.5, 7, 3"))), "shear modulus", "both must be above 0")
-    says(refusal(billet(OWN + "\n set Constants = 1, 2\n")), "'Constants'", "does not use it")
+    for text, (_, *parts) in zip(refusals(*(billet(material) for material, *_ in cases)), cases):
+        says(text, *parts)
 
 
 @check("the UMAT passes its certification, on a page of text or Markdown")
