@@ -77,6 +77,11 @@ def set_environment(uses_mpirun: bool) -> None:
         os.environ |= {"OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self"}
 
 
+def serves(word: Path) -> bool:
+    """Returns whether a word of a command is a program that serves."""
+    return not IS_SANITIZED and word.is_absolute() and (word.name == "billet" or word.name.endswith("_tests"))
+
+
 def run(folder: Path, command: Sequence[str]) -> int:
     """Runs the command in the folder, which is made anew; what it prints goes to the file stdout. Returns the
     exit code."""
@@ -86,13 +91,16 @@ def run(folder: Path, command: Sequence[str]) -> int:
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     os.chdir(folder)
-    set_environment(any(Path(word).name.startswith("mpi") for word in command))
-    program = Path(command[0])
+    set_environment(uses_mpirun=any(Path(word).name.startswith("mpi") for word in command))
+    starts_ranks = Path(command[0]).name.startswith("mpi")
+    first = next((i for i, word in enumerate(command) if serves(Path(word))), None)
     with open("stdout", "wb") as output:
-        if (program.name == "billet" or program.name.endswith("_tests")) and not IS_SANITIZED:
-            server = ForkServer(program, is_shared=True)
+        if first == 0:
+            server = ForkServer(command[0], is_shared=True)
             server.start(command[1:], folder, output, output)
             return server.wait()[0]
+        if first is not None and starts_ranks:
+            command = [*command[:first], sys.executable, "-B", str(ROOT / "tests/rank.py"), *command[first:]]
         return subprocess.run(
             command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT
         ).returncode

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: bad_input.py TABLE COMMAND...
+"""Usage: bad_input.py TABLE [LAUNCHER... RANKS] BILLET
 
-Runs in an empty current folder; COMMAND is billet, or mpirun ... billet.
+Runs in an empty current folder; LAUNCHER is mpirun with its option -n.
 
 Each line of TABLE is a scene that billet must refuse:    EDIT -> MESSAGE
 
@@ -27,7 +27,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple, Sequence
 
-from checks import HERE, differences, enter_folder, read_text, run, snapshot, write_text
+from checks import HERE, Program, differences, enter_folder, read_text, run, snapshot, write_text
 from edits import edit, line_of
 
 
@@ -84,14 +84,14 @@ def read_cases(table: Path, base: str) -> list[Case]:
 class Refusals:
     """Runs cases and notes their faults."""
 
-    def __init__(self, command: Sequence[str]) -> None:
-        self.command = command
+    def __init__(self, program: Program, ranks: int) -> None:
+        self.program, self.ranks = program, ranks
         self.faults: dict[str, str] = {}
         self._before = snapshot()
 
     def run(self, cases: Sequence[Case], *options: str) -> None:
         """Runs these at once."""
-        code, output, errors = run(*self.command, *options, *(case.file for case in cases))
+        code, output, errors = run(*self.program.on(self.ranks, *options, *(case.file for case in cases)))
         errors = re.sub(r"^note\[unchecked-parts\].*\n", "", errors, flags=re.MULTILINE)
         messages = [part for part in re.split(r"^(?=error\[)", errors, flags=re.MULTILINE) if part]
         for case in cases:
@@ -120,7 +120,9 @@ class Refusals:
 
 def main() -> int:
     """Returns the exit code."""
-    table, command = Path(sys.argv[1]), sys.argv[2:]
+    table = Path(sys.argv[1])
+    *launcher, billet = sys.argv[2:]
+    ranks = int(launcher.pop()) if launcher else 1
     enter_folder()
     os.makedirs("no_history/history.csv")  # a folder where a file should be
     match = re.search(r"^scene (\S+)$", read_text(table), re.MULTILINE)
@@ -128,12 +130,12 @@ def main() -> int:
     base = read_text(HERE / base_name)
     write_text("scene.prm", base)
     # Few fields: each check looks at all files of the results.
-    code, _, errors = run(command[-1], "scene.prm", "--set", "Output/Step interval=1000000")
+    code, _, errors = run(billet, "scene.prm", "--set", "Output/Step interval=1000000")
     if code:
         sys.exit(f"{base_name} itself fails ({code}): {errors}")
 
     cases = read_cases(table, base)
-    refusals = Refusals(command)
+    refusals = Refusals(Program([billet, *launcher]), ranks)
     runs_all = table.name.startswith("run_")
     if not runs_all:
         refusals.run(cases, "--check")

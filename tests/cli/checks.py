@@ -28,6 +28,8 @@ IS_SANITIZED = "ASAN_OPTIONS" in os.environ
 TIME_LIMIT = 900 if IS_SANITIZED else 60  # seconds; ranks that wait for each other fail
 # Of Open MPI, for all that these scripts start: ranks that wait let others compute.
 os.environ.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
+# How mpirun starts ranks in children of a process that has loaded the libraries.
+RANK = (sys.executable, "-B", str(HERE.parent / "rank.py"))
 # bytes of addresses for each process; MPI's libraries alone want a good part of it
 MEMORY_LIMIT = 8_000_000 * 1024
 
@@ -230,7 +232,9 @@ class Program:
 
     def on(self, ranks: int, *arguments: str) -> list[str]:
         """Returns the command."""
-        return [*((*self.launcher, str(ranks)) if ranks > 1 else ()), self.path, *arguments]
+        if ranks == 1:
+            return [self.path, *arguments]
+        return [*self.launcher, str(ranks), *(() if IS_SANITIZED else RANK), self.path, *arguments]
 
 
 class Run:

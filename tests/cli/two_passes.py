@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import sys
 
-from checks import Checks, enter_folder, near, require, run
+from checks import Checks, Program, enter_folder, near, require, run
 from shipped import history
 
-program, *launcher = sys.argv[1:]
+program = Program(sys.argv[1:])
 check = Checks()
 enter_folder()
 PRESSURE, AREA = 100.0, 100.0
@@ -27,8 +27,7 @@ RAMP = ("Bodies/top/Loads/press/Pressure=100*min(1, 5e3*t)", "Bodies/top/Contact
 def last_row(ranks: int, *changes: str) -> dict[str, float]:
     """Runs the scene with changes, and returns the last row of its history."""
     options = [part for change in changes for part in ("--set", change)]
-    prefix = [*launcher, str(ranks)] if ranks > 1 else []
-    ended = run(*prefix, program, "two_passes.prm", "--output", "pressed", "--force", *options)
+    ended = run(*program.on(ranks, "two_passes.prm", "--output", "pressed", "--force", *options))
     require(ended.code == 0, ended.output + ended.errors)
     return history("pressed")[-1]
 
@@ -67,7 +66,7 @@ def _() -> None:
 
 @check("no pressure is negative where slaves slide over the edges of facets")
 def _() -> None:
-    ended = run(program, "glide.prm", "--output", "glided", "--force")
+    ended = run(program.path, "glide.prm", "--output", "glided", "--force")
     require(ended.code == 0, ended.output + ended.errors)
     rows = history("glided")
     largest = max(row["bed.largest_contact_pressure"] for row in rows)
@@ -83,7 +82,7 @@ def _() -> None:
         "Bodies/bed/Material/Young modulus=1000",  # its surface stays flat
     )
     options = [part for change in changes for part in ("--set", change)]
-    ended = run(program, "glide.prm", "--output", "limited", "--force", *options)
+    ended = run(program.path, "glide.prm", "--output", "limited", "--force", *options)
     require(ended.code == 0, ended.output + ended.errors)
     touching = [row for row in history("limited") if row["foot.contact_area"] > 0]
     largest = max(abs(row["foot.force_x"]) / row["foot.contact_area"] for row in touching)

@@ -15,6 +15,12 @@ from pathlib import Path
 from typing import IO, Callable, Mapping, Sequence, Union
 
 Restrict = Union[Callable[[], None], None]
+OF_MPI = ("OMPI_", "PMIX_", "PRTE_", "ORTE_")  # beginnings of variables that a rank reads when MPI starts
+
+
+def variables(of_mpi: bool) -> dict[str, str]:
+    """Returns the variables of the environment that are, or are not, of MPI."""
+    return {name: value for name, value in os.environ.items() if name.startswith(OF_MPI) == of_mpi}
 
 
 def serving(
@@ -29,7 +35,8 @@ def serving(
             stderr=subprocess.DEVNULL,
             preexec_fn=restrict,
             cwd=folder,
-            env={**os.environ, "LD_BIND_NOW": "1"},  # symbols are bound once for all runs
+            # Symbols are bound once for all runs, and what MPI reads comes with each of them.
+            env={**variables(of_mpi=False), "LD_BIND_NOW": "1"},
             start_new_session=True,  # Ctrl-C is of who asks for runs
         )
 
@@ -63,9 +70,11 @@ class ForkServer:
         """Connects to the shared server, which is started if there is none."""
         file = program.stat()
         what = [program, file.st_ino, file.st_mtime_ns, restrict.__name__ if restrict else ""]
-        variables = {name: os.environ[name] for name in os.environ if name not in ("PWD", "OLDPWD", "_")}
+        others = variables(of_mpi=False)
+        for name in ("PWD", "OLDPWD", "SHLVL", "_"):
+            others.pop(name, None)
         # A name of Linux that is no file.
-        address = b"\0billet-" + hashlib.sha256(repr((what, sorted(variables.items()))).encode()).digest()
+        address = b"\0billet-" + hashlib.sha256(repr((what, sorted(others.items()))).encode()).digest()
         for _ in range(1000):
             try:
                 self._socket.connect(address)
@@ -98,8 +107,9 @@ class ForkServer:
     ) -> int:
         """Starts a run in a folder, with these variables of the environment set. Returns the number of its
         process, which is that of its group."""
-        variables = [f"{name}={value}" for name, value in (environment or {}).items()]
-        text = "".join(word + "\0" for word in (str(folder), *variables, "", *arguments))
+        settings = {**variables(of_mpi=True), **(environment or {})}
+        lines = [f"{name}={value}" for name, value in settings.items()]
+        text = "".join(word + "\0" for word in (str(folder), *lines, "", *arguments))
         request = text.encode("utf-8", "surrogateescape")
         if len(request) > self.LONGEST:
             raise ValueError(f"a request of {len(request)} bytes")

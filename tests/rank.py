@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: rank.py PROGRAM ARGUMENT...
+
+A rank that mpirun starts: runs the program in a child of its shared server, which has loaded the libraries,
+and ends with its exit code.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tools"))
+from billet_tools.fork_server import ForkServer  # noqa: E402
+
+os.sched_setaffinity(0, range(os.cpu_count() or 1))  # mpirun binds ranks to cores, which the server is not
+server = ForkServer(sys.argv[1], is_shared=True)
+process = server.start(sys.argv[2:], os.getcwd(), sys.stdout.buffer, sys.stderr.buffer)
+for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGUSR2):
+    signal.signal(number, lambda which, _: os.kill(process, which))
+code, _ = server.wait()
+if code < 0:  # mpirun tells of the signal
+    signal.signal(-code, signal.SIG_DFL)
+    os.kill(os.getpid(), -code)
+sys.exit(code)
