@@ -22,7 +22,7 @@ from edits import Edited, edit
 
 BLOCK = read_text(HERE / "block.prm")
 PROGRAM = sys.argv[-1]
-N_PAIRS = 120
+N_PAIRS = 60
 MIN_PART = 0.85  # of pairs of which both errors are found; others depend on a mesh, a support or a pair
 
 check = Checks()
@@ -107,12 +107,12 @@ def make_pairs(faulty: list[Faulty]) -> list[Pair]:
 
 
 enter_folder()
-faulty = single_errors(read_edits(sys.argv[1:-1])[::2])
+faulty = single_errors(read_edits(sys.argv[1:-1])[::4])
 
 
 @check("both errors of two parts are found at once")
 def _() -> None:
-    require(len(faulty) > 100, f"{len(faulty)} edits are too few")
+    require(len(faulty) > 50, f"{len(faulty)} edits are too few")
     pairs = make_pairs(faulty)
     n_found = 0
     for start in range(0, len(pairs), 50):
@@ -170,12 +170,21 @@ def with_faulty_ends(text: str) -> dict[str, str]:
     }
 
 
-@check("an 'end' that is missing or one too many hides no other error, and makes none")
+def begin_of(end: int) -> int:
+    """Returns the line number of the subsection of the block that ends in this line."""
+    lines = BLOCK.split("\n")
+    indent = len(lines[end - 1]) - len(lines[end - 1].lstrip())
+    return max(i for i in range(end) if re.match(rf" {{{indent}}}subsection ", lines[i])) + 1
+
+
+@check(
+    "an 'end' that is missing or one too many is told where it belongs, hides no other error, and makes none"
+)
 def _() -> None:
     flat = "\n".join(line.strip() for line in BLOCK.split("\n"))
     wrong = edit(BLOCK, INDEPENDENT).text
-    for text, n_others in ((BLOCK, 0), (flat, 0), (wrong, 7)):
-        files = with_faulty_ends(text)
+    for text, n_others, every in ((BLOCK, 0, 1), (flat, 0, 3), (wrong, 7, 3)):
+        files = dict(list(with_faulty_ends(text).items())[::every])
         for name, faulty_text in files.items():
             write_text(name, faulty_text)
         errors = run(PROGRAM, "--check", *files).errors
@@ -184,6 +193,9 @@ def _() -> None:
             equal(f"number of errors of {name}:\n{of_file}", len(messages_of(of_file)), n_others + 1)
             said = "has no 'end'" if name.startswith("missing") else "'end' (closes no|is probably one too)"
             says(rf"^error.*{said}", of_file)
+            if text is BLOCK and name.startswith("missing"):
+                begin = begin_of(int(name[len("missing_") : -len(".prm")]))
+                says(rf"^error\[bad-input\]: {name}:{begin}: subsection '.*' has no 'end'", of_file)
 
 
 @check("several 'end's that are missing or too many")

@@ -477,23 +477,7 @@ def without_line(text: str, number: int) -> str:
     return "\n".join(lines)
 
 
-ENDS = [number for number, line in enumerate(BLOCK.split("\n"), 1) if line.strip() == "end"]
-
-
-@check("whichever 'end' is missing, the message names its subsection")
-def _() -> None:
-    lines = BLOCK.split("\n")
-    files = {number: f"without_{number:03d}.prm" for number in ENDS}
-    for number, name in files.items():
-        write_text(name, without_line(BLOCK, number))
-    said = billet("--check", *files.values(), code=2).errors
-    for number, name in files.items():
-        indent = len(lines[number - 1]) - len(lines[number - 1].lstrip())
-        begin = max(i for i in range(number) if re.match(rf" {{{indent}}}subsection ", lines[i]))
-        says(rf"^error\[bad-input\]: {name}:{begin + 1}: subsection '.*' has no 'end'", said)
-
-
-@check("without indentation, by what does not belong into a subsection")
+@check("without indentation, a missing 'end' is found by what does not belong into a subsection")
 def _() -> None:
     flat = "\n".join(line.strip() for line in BLOCK.split("\n"))
     mesh_end = line_of(BLOCK, "Material") - 1
