@@ -76,6 +76,12 @@ def refusal(library: str) -> str:
     return ended.errors
 
 
+def refuses(library: str, words: str) -> None:
+    """Requires these words of the refusal of a library."""
+    said = refusal(library)
+    require(words in said, said)
+
+
 call(cmake, "--install", build, "--prefix", str(here / "installed"))
 program = str(here / "installed/bin/billet")
 shutil.copytree(here / "installed/share/billet/examples/own_law", here / "own_law")
@@ -119,18 +125,18 @@ def _() -> None:
 
 @check("a library that is not there is refused")
 def _() -> None:
-    require("there is no such file" in refusal("nowhere.so"), refusal("nowhere.so"))
+    refuses("nowhere.so", "there is no such file")
 
 
 @check("a file that is no library is refused")
 def _() -> None:
-    require("the system cannot load" in refusal("pull.prm"), refusal("pull.prm"))
+    refuses("pull.prm", "the system cannot load")
 
 
 @check("a library without BILLET_PLUGIN is refused")
 def _() -> None:
     compile_library("other.so", "int nothing() { return 0; }")
-    require("has no BILLET_PLUGIN" in refusal("other.so"), refusal("other.so"))
+    refuses("other.so", "has no BILLET_PLUGIN")
 
 
 @check("a library of another version is refused")
@@ -140,7 +146,7 @@ def _() -> None:
         'extern "C" const char *billet_plugin_version() { return "0.0.1"; }\n'
         'extern "C" void billet_plugin_register() {}\n',
     )
-    require("was built for billet 0.0.1" in refusal("old.so"), refusal("old.so"))
+    refuses("old.so", "was built for billet 0.0.1")
 
 
 @check("a library that fails to register is refused")
@@ -157,7 +163,7 @@ def _() -> None:
         f'extern "C" const char *billet_plugin_version() {{ return "{version}"; }}\n'
         'extern "C" void billet_plugin_register() { throw std::logic_error("taken twice"); }\n',
     )
-    require("cannot register its types: taken twice" in refusal("thrower.so"), refusal("thrower.so"))
+    refuses("thrower.so", "cannot register its types: taken twice")
 
 
 sys.exit(check.finish())
