@@ -98,7 +98,7 @@ def levels(ran: Run) -> list[list[str]]:
 
 FINE = "Mesh: Arguments = 32, 1, 16 : 0, 0, 0 : 20, 1, 10 & "
 FORCE = "beam.support wall.force_z"
-exact = billet(FINE + "Mesh: Refinements = 1").last(FORCE)
+exact = 38.29618  # of FINE with another refinement
 
 for ranks in (1, 2):
 
@@ -181,12 +181,8 @@ def _() -> None:
     require(int(last[-2]) > int(last[-1]), f"levels {last[-2:]}")
     says(rf"^Mesh level {last[-2]}, .*, 'base' at {last[-1]}$", ran.said)
     force = "block.support top.force_z"
-    fine = runner.run(
-        base,
-        "block / Mesh: Arguments = 32, 1, 16 : -5, 0, 0 : 5, 1, 5"
-        " & base / Mesh: Arguments = 64, 1, 32 : -10, 0, -10 : 10, 1, 0",
-    )
-    estimate, true = float(last[4]), abs(ran.last(force) / fine.last(force) - 1)
+    fine = -1325.950  # with bricks of a quarter of the edges
+    estimate, true = float(last[4]), abs(ran.last(force) / fine - 1)
     require(0.5 <= estimate / true <= 4.0, f"estimated {estimate}, true {true}")
 
 
@@ -222,7 +218,7 @@ def _() -> None:
         "Time stepping: - Step control & Time stepping: - Initial step & fit: - Penetration tolerance"
         " & + set Target error = {} percent\\nset Target error of = everything"
     )
-    for target, code in ((0.4, 0), (0.15, 7)):
+    for target, code in ((0.4, 0), (0.25, 7)):
         ran = runner.run(FIT, free.format(target))
         equal(f"the exit code for {target} %", ran.ended.code, code)
         estimated = dict(line.split(",") for line in ran.text("error_estimate.csv").splitlines()[1:])
@@ -231,7 +227,7 @@ def _() -> None:
         equal(f"the sum is within {target} %", others + of_mesh <= 0.01 * target, code == 0)
         equal("the warning", "warning[target-error-missed]" in ran.said, code == 7)
     says(
-        r"missed\]: .* with the [0-9.]+ % of the mesh, exceeds the target, 0\.15 %; .* penetrations", ran.said
+        r"missed\]: .* with the [0-9.]+ % of the mesh, exceeds the target, 0\.25 %; .* penetrations", ran.said
     )
 
 
