@@ -145,7 +145,10 @@ def _() -> None:
     )
     wrong = complaints("bent_strip", "pad / Material: Elasticity = Mooney")
     says(r"'Mooney'; did you mean 'Mooney-Rivlin'\?", wrong)
-    without = "hold after forming: delete & punch / Motion: Translation = 0 ; -press ; 0"
+    without = (
+        "hold after forming: delete & punch / Motion: Translation = 0 ; -press ; 0"
+        " & strip / Mesh: Arguments = 15, 2 : 0, 0 : 25, 1"
+    )
     ran = runner.run(scene("bent_strip"), without)
     require(ran.ended.code == 3, f"exit code {ran.ended.code}")
     says(
