@@ -230,7 +230,7 @@ void test_edge() {
       testing::make_surface("extruded profile", "set Corners = -2, 0 ; 2, 0 ; 2, 0.1 ; -2, 0.1 ; -2, 0\n"
                                                 "set Outside = right\nset Axis = 0, -1, 0\n"
                                                 "set Direction = 1, 0, 0\nset Length = 4");
-  scene.time_stepping.end_time = 0.04;
+  scene.time_stepping.end_time = 0.025;
   ExplicitRun run(scene);
   double start = 0.;
   run.finish(1e-4, [&] { start = std::min(start, run.state().momentum[0]); });

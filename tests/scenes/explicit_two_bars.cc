@@ -25,8 +25,8 @@ std::string name_of(const FacetMethod facets) {
 void test(const double penalty, const unsigned int across, const bool two_passes, const FacetMethod facets) {
   parameters::Scene scene = testing::read_test_scene("two_bars.prm");
   const std::string n = std::to_string(across);
-  scene.bodies[1].mesh.arguments = "160, " + n + ", " + n + " : 0, 0, 0 : 0.2, 0.02, 0.02 : true";
-  scene.bodies[0].mesh.arguments = "160, 2, 2 : -0.201, 0, 0 : -0.001, 0.02, 0.02 : true";
+  scene.bodies[1].mesh.arguments = "120, " + n + ", " + n + " : 0, 0, 0 : 0.2, 0.02, 0.02 : true";
+  scene.bodies[0].mesh.arguments = "120, 2, 2 : -0.201, 0, 0 : -0.001, 0.02, 0.02 : true";
   scene.pairs[0].penalty.normal = penalty;
   scene.pairs[0].facets.edges = parameters::ContactPair::Edges::free; // of nodes against facets
   scene.pairs[0].facets.passes =
@@ -94,14 +94,13 @@ void test_unequal(const std::string &name, const parameters::ContactPair::Penalt
 
 BILLET_MPI_TEST(explicit_two_bars) {
   using Facets = FacetMethod;
-  if (testing::n_ranks() > 1) { // the meshes that do not match, by both passes
-    test(1., 3, true, Facets::planed);
-    test(1., 3, false, Facets::bilinear);
+  if (testing::n_ranks() > 1) { // meshes that do not match
+    test(1., 3, true, Facets::bilinear);
     return;
   }
+  test(1., 2, true, Facets::planed);
   for (const double penalty : {0.1, 1., 10.})
-    for (const unsigned int across : {2, 3})
-      test(penalty, across, true, Facets::planed);
+    test(penalty, 3, true, Facets::planed);
   test(1., 3, true, Facets::mean_gap);
   test(1., 3, true, Facets::bilinear);
   test(1., 3, false, Facets::planed);

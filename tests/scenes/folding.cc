@@ -35,8 +35,15 @@ bool is_on_grid(const double time, const unsigned int n) {
 void test(const std::string &name, const std::string &scene, const unsigned int n, const FacetMethod facets) {
   parameters::Scene parameters = testing::read_shipped_scene(scene);
   parameters.pairs[2].facets.method.value = facets;
+  if (scene == "hollow_block.prm") // two thirds of the scene's elements each way
+    parameters.bodies[0].mesh.arguments = "4, 1, 32 : 0, 0, -90 : 1, 1, 90 : true";
   for (auto &pair : parameters.pairs)
     pair.penetration_tolerance = 0.; // springs alone know no history
+  for (auto &amplitude : parameters.amplitudes)
+    if (scene == "ring_crush.prm") { // faster until the inside comes near itself
+      amplitude.times = {0., 0.5, 1., 1.5, 2., 2.1};
+      amplitude.values = {0., -13., -18.8, -13., 0., 0.5};
+    }
   set_grid(parameters, n);
   SceneRun run(parameters);
   std::vector<FoldState> states{{0., 0., 0., 0.}};
@@ -77,6 +84,7 @@ void test(const std::string &name, const std::string &scene, const unsigned int 
 void test_with_friction(const std::string &name, const std::string &scene, const unsigned int n) {
   parameters::Scene parameters = testing::read_shipped_scene(scene);
   parameters.pairs[2].friction = make_coulomb(0.3);
+  parameters.pairs[2].facets.method.value = FacetMethod::planed;
   parameters.time_stepping.initial_step = parameters.time_stepping.max_step = 1. / n;
   SceneRun run(parameters);
   double max_force = 0., max_stored = 0.;
@@ -114,10 +122,10 @@ void test_two_sides() {
 
 BILLET_MPI_TEST(folding) {
   using Facets = FacetMethod;
-  test("ring, overlap", "ring_crush.prm", 25, Facets::overlap);
-  test("ring, planed", "ring_crush.prm", 25, Facets::planed);
-  test("block, overlap", "hollow_block.prm", 12, Facets::overlap);
-  test_with_friction("ring, friction", "ring_crush.prm", 20);
+  test("ring, overlap", "ring_crush.prm", 16, Facets::overlap);
+  test("ring, planed", "ring_crush.prm", 16, Facets::planed);
+  test("block, overlap", "hollow_block.prm", 10, Facets::overlap);
+  test_with_friction("ring, friction", "ring_crush.prm", 12);
   test_two_sides();
 }
 

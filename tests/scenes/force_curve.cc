@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The billet's force curve, the same on any number of ranks: the comparison files for 1, 2, 3 and 4 ranks are
-// one text.
+// The billet's force curve, the same on several ranks: the comparison files for 1 and 3 ranks are one text.
 #include "scene_run.h"
 
 #include <deal.II/base/mpi.h>

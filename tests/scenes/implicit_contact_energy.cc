@@ -63,7 +63,7 @@ BILLET_MPI_TEST(implicit_contact_energy) {
   parameters::Scene bar = testing::read_test_scene("elastic_bar.prm");
   bar.bodies[0].mesh.arguments = "16, 1, 1 : 0.002, 0, 0 : 0.202, 0.0125, 0.0125 : true";
   testing::set_newmark(bar); // which takes nothing by itself
-  for (const double penalty : {1., 1e2, 1e4, 1e6}) {
+  for (const double penalty : {1., 1e3, 1e6}) {
     std::ostringstream name;
     name << "a bar on a wall, " << penalty << " E/h";
     const Run result = run(bar, penalty);

@@ -86,7 +86,7 @@ void check_heavy_tools() {
   check("  a moment turns an unimpeded tool", turn.value(), 1e-9);
 }
 
-/// The free end at 120 times, work of the support, and errors of the held velocity, with the root shaken.
+/// The free end at 60 times, work of the support, and errors of the held velocity, with the root shaken.
 struct Shaken {
   std::vector<double> ends;
   double work = 0., velocity = 0., drift = 0.;
@@ -106,7 +106,7 @@ Shaken shake(const unsigned int n_steps) {
     const double held = 4e-4 * M_PI / 30. * std::pow(std::sin(phase), 3) * std::cos(phase);
     velocity.add(std::abs(testing::along_x(run, state.velocities)[0.] - held) / 1e-5);
     drift.add(std::abs(state.energies.drift() / state.energies.total()));
-    if (run.control.n_steps() % (n_steps / 120) == 0)
+    if (run.control.n_steps() % (n_steps / 60) == 0)
       shaken.ends.push_back(testing::along_x(run, state.displacements)[8.] / 1e-4);
   });
   shaken.work = state.energies.external;
@@ -116,7 +116,7 @@ Shaken shake(const unsigned int n_steps) {
 }
 
 void check_moving_supports() {
-  const Shaken coarse = shake(120), fine = shake(240), reference = shake(960);
+  const Shaken coarse = shake(60), fine = shake(120), reference = shake(480);
   const auto error_of = [&](const Shaken &shaken) {
     double error = 0.;
     for (std::size_t i = 0; i < reference.ends.size(); ++i)
@@ -145,7 +145,7 @@ void check_removal() {
   scene.tools[0].motion.translation.value = {"-0.5e-4*(1 - cos(pi*min(t, 80)/80))", "0", "0"};
   scene.tools[0].motion.removal_time.value = removal;
   scene.time_stepping.end_time = removal + 32.;
-  scene.time_stepping.initial_step = 0.1;
+  scene.time_stepping.initial_step = 0.2;
   testing::set_hht(scene, -0.05);
   SceneRun run(scene);
   const SolutionState &state = run.problem.state();

@@ -93,7 +93,7 @@ BILLET_MPI_TEST(implicit_patch) {
   using Facets = FacetMethod;
   for (const auto passes : {Passes::one, Passes::two}) {
     const std::string name = passes == Passes::one ? "one pass" : "two passes";
-    for (const double factor : {0.2, 1., 100., 1e4}) { // with 0.1 nodes go so deep that it is raised
+    for (const double factor : {0.2, 100., 1e4}) { // with 0.1 nodes go so deep that it is raised
       auto scene = turned;
       scene.pairs[0].facets.passes = passes;
       scene.pairs[0].penalty.normal = factor * E / edge;
@@ -102,7 +102,8 @@ BILLET_MPI_TEST(implicit_patch) {
       check(name + ", penalty " + print(factor) + " E/h",
             stress_error(run, exact_stress(n, 0.3, 0.2, scene.pairs[0].penalty.normal)), 1e-8);
     }
-    for (const double factor : {1., 100.}) {
+    {
+      const double factor = passes == Passes::one ? 1. : 100.;
       auto scene = turned;
       scene.pairs[0].facets.passes = passes;
       scene.pairs[0].penalty.normal = factor * E / edge;
@@ -139,7 +140,7 @@ BILLET_MPI_TEST(implicit_patch) {
 
   // The upper part is displaced by s along the cut, and is not below, or above, the other one at its ends.
   const auto cut = testing::read_shipped_scene("patch_test_cut.prm");
-  for (const double factor : {1., 10., 100., 1e3, 1e4}) {
+  for (const double factor : {1., 100., 1e4}) {
     auto scene = cut;
     scene.pairs[0].penalty.normal = scene.pairs[0].penalty.tangential = factor * E / edge;
     SceneRun run(scene);

@@ -93,6 +93,8 @@ BILLET_MPI_TEST(implicit_vibration) {
 
   for (const bool is_lumped : {false, true})
     for (const std::string method : {"Newmark", "HHT", "generalised"}) {
+      if (is_lumped && method != "Newmark")
+        continue;
       parameters::Scene scene = make_scene({1}, 1.);
       if (method == "Newmark")
         testing::set_newmark(scene);

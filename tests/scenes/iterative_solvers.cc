@@ -92,8 +92,8 @@ BILLET_MPI_TEST(iterative_solvers) {
   parameters::Scene billet = testing::read_shipped_scene("billet_upsetting.prm");
   billet.bodies[0].mesh.refinements = 2;
   billet.bodies[0].mesh.n_layers = 10;
-  billet.time_stepping.end_time = 0.08;
-  testing::set_fixed_steps(billet, 2);
+  billet.time_stepping.end_time = 0.04;
+  testing::set_fixed_steps(billet, 1);
   compare("billet, GMRES", billet, IterativeMethod::gmres);
   const bool is_alone = testing::n_ranks() == 1; // on several ranks, one scene for each method
   billet.pairs[0].friction = nullptr;

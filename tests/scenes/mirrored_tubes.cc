@@ -19,7 +19,7 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double diameter = 0.2, wall = 0.01, speed = 50., end_time = 2e-3;
+constexpr double diameter = 0.2, wall = 0.01, speed = 50., end_time = 1e-3;
 
 /// Nodes of both tubes at mirror images of each other, at y and −y.
 std::vector<std::array<unsigned int, 2>> find_mates(const LocalNodes &nodes) {

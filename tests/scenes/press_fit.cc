@@ -142,11 +142,11 @@ void test_pulling_apart() {
 /// contact is found.
 void test_ramp() {
   parameters::Scene scene = read_scene(16, 0.);
-  testing::set_fixed_steps(scene, 50);
+  testing::set_fixed_steps(scene, 20);
   SceneRun fit(scene);
   fit.finish();
   const double mean = -p * b * b / (b * b - a * a);
-  check("ramp in 50 steps: pressure", find_errors(fit, p, {{{mean, mean * a * a}, outer_hoop(p)}}).pressure,
+  check("ramp in 20 steps: pressure", find_errors(fit, p, {{{mean, mean * a * a}, outer_hoop(p)}}).pressure,
         0.01);
   scene.bodies[0].mesh.arguments = "8, 16, 1 : 10, 0, 0 : 20.9, 90, 1 : true";
   bool is_refused = false;

@@ -26,7 +26,7 @@ BILLET_MPI_TEST(restart) {
     // What Newton's method leaves, and how many iterations it takes, depends on round-off, and so on the
     // ranks.
     scene.solver.force_tolerance = 1e-11;
-    testing::set_fixed_steps(scene, is_alone ? 25 : 10);
+    testing::set_fixed_steps(scene, 10);
     if (!is_alone) // whether to augment once more may hang on round-off, and so on ranks
       for (auto &pair : scene.pairs)
         pair.penetration_tolerance = 0.;
@@ -41,7 +41,7 @@ BILLET_MPI_TEST(restart) {
     testing::set_elasticity(scene.bodies[0].material, "hypoelastic");
     for (auto &pair : scene.pairs)
       pair.penetration_tolerance = 0.; // whether to augment once more may hang on round-off, and so on ranks
-    testing::set_fixed_steps(scene, 25);
+    testing::set_fixed_steps(scene, 10);
     testing::test_going_on<testing::ImplicitSolutionRun>(
         "Press, one point, hypoelastic", scene, {0.6},
         [](auto &run, const double time, History &history) { run.run(time, history); });
@@ -49,10 +49,10 @@ BILLET_MPI_TEST(restart) {
   {
     parameters::Scene scene = testing::read_test_scene("raised_penalties.prm"); // in the first steps
     scene.solver.force_tolerance = 1e-11;
-    scene.time_stepping.end_time = 1e-4;
+    scene.time_stepping.end_time = 0.5e-4;
     scene.amplitudes[0].values.back() *= 10.;     // forces well above round-off of the raised penalties
     scene.implicit_dynamics.error_tolerance = 0.; // steps are fixed
-    testing::set_fixed_steps(scene, 20);
+    testing::set_fixed_steps(scene, 10);
     testing::test_going_on<testing::ImplicitSolutionRun>(
         "Raises", scene, stops({0.1e-4, 0.15e-4}, 0.15e-4),
         [](auto &run, const double time, History &history) { run.run(time, history); });

@@ -167,13 +167,13 @@ void test_shear() {
 /// A brick that moves: energies balance, and the end of a slow pull is that of statics.
 void test_dynamics() {
   const std::string pull =
-      symmetry + support("top", 5, "z", "0 ; 0 ; 0.4*(1 - cos(pi*t/2e-4))/2") + end_of_supports;
+      symmetry + support("top", 5, "z", "0 ; 0 ; 0.4*(1 - cos(pi*t/5e-5))/2") + end_of_supports;
   for (const auto &[name, lines] : materials(1e5, "\nset Poisson ratio = 0.45"))
     for (const std::string element : elements) {
       const Mode uniaxial{"", "", {true, true}, 0.};
       testing::ExplicitRun moving(
-          read(brick(element, lines, pull), "  set Scheme = explicit\n  set End time = 2e-4\n"));
-      moving.finish(2e-4, [] {});
+          read(brick(element, lines, pull), "  set Scheme = explicit\n  set End time = 5e-5\n"));
+      moving.finish(5e-5, [] {});
       const auto law = std::dynamic_pointer_cast<const SpatialLaw>(moving.scene.bodies()[0].law);
       double exact = 0.;
       for (unsigned int i = 0; i < 200; ++i) // work of the force
@@ -183,8 +183,8 @@ void test_dynamics() {
       check(name + ", " + element + ", explicit, energies balance",
             std::abs(moving.state().energies.drift()) / exact, 1e-3);
       SceneRun run(read(brick(element, lines, pull),
-                        "  set Scheme = implicit dynamics\n  set End time = 2e-4\n"
-                        "  set Step control = fixed\n  set Initial step = 1e-5\n"));
+                        "  set Scheme = implicit dynamics\n  set End time = 5e-5\n"
+                        "  set Step control = fixed\n  set Initial step = 2.5e-6\n"));
       run.finish();
       check(name + ", " + element + ", implicit dynamics",
             std::abs(run.problem.state().energies.elastic / exact - 1.), 1e-2);
@@ -193,9 +193,9 @@ void test_dynamics() {
   for (const std::string &material : {std::string("set Young modulus = 2e5\nset Poisson ratio = 0.45"),
                                       materials(1e5, "\nset Poisson ratio = 0.45").at("Ogden")}) {
     testing::ExplicitRun moving(
-        read(brick("assumed strain", material + "\nset Prony moduli = 0.6\nset Prony times = 5e-5", pull),
-             "  set Scheme = explicit\n  set End time = 2e-4\n"));
-    moving.finish(2e-4, [] {});
+        read(brick("assumed strain", material + "\nset Prony moduli = 0.6\nset Prony times = 1.2e-5", pull),
+             "  set Scheme = explicit\n  set End time = 5e-5\n"));
+    moving.finish(5e-5, [] {});
     const EnergyLedger &energies = moving.state().energies;
     check("viscous, explicit, energies balance", std::abs(energies.drift()) / energies.elastic, 1e-3);
     check("viscous, explicit, dissipation", energies.plastic > 0.05 * energies.elastic);
@@ -225,7 +225,7 @@ void test_torsion(const std::string &element) {
   const std::string turn = "(" + std::to_string(q * height) + "*t)";
   for (std::size_t at = 0; (at = bodies.find("(a)", at)) != std::string::npos;)
     bodies.replace(at, 3, turn);
-  parameters::Scene scene = read(bodies, "  set End time = 1\n  set Initial step = 0.25\n");
+  parameters::Scene scene = read(bodies, "  set End time = 1\n  set Initial step = 0.5\n");
   scene.solver.force_tolerance = 1e-5;
   scene.solver.energy_tolerance = 1e-9;
   SceneRun run(scene);
@@ -313,8 +313,8 @@ void test_pressed_cylinder() {
       "    subsection Motion\n      set Translation = 0 ; -100*t ; 0\n    end\n  end\nend\n"
       "set Contact = all\nsubsection General contact\n  set Self-contact = false\nend\n";
   parameters::Scene parameters =
-      read(scene, "  set End time = 1\n  set Stops = 0.5\n  set Initial step = 0.02\n"
-                  "  set Maximum step = 0.05\n");
+      read(scene, "  set End time = 1\n  set Stops = 0.5\n  set Initial step = 0.05\n"
+                  "  set Maximum step = 0.1\n");
   parameters.solver.force_tolerance = 1e-3;
   parameters.solver.energy_tolerance = 1e-5;
   SceneRun run(parameters);

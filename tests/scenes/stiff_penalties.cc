@@ -67,11 +67,11 @@ BILLET_MPI_TEST(stiff_penalties) {
   check("nodes press in both", stiff.springs.size() > 2 && less.springs.size() > 2);
   check("at the end penalties are those of the scene", penalty.value(), 1e-6);
 
-  parameters::Scene symmetrised = make_scene(10., 10.), exact = symmetrised;
+  parameters::Scene symmetrised = make_scene(10., 10.);
   symmetrised.solver.contact_tangent = parameters::ContactTangent::symmetrised_upper;
   symmetrised.solver.linear_solver.value = DirectMethod::mumps_symmetric;
-  SceneRun as_given(exact), rescued(symmetrised);
-  as_given.finish();
+  symmetrised.time_stepping.min_step = 5e-3; // so that it fails soon
+  SceneRun rescued(symmetrised);
   bool has_failed = false;
   try {
     rescued.finish();
@@ -82,9 +82,7 @@ BILLET_MPI_TEST(stiff_penalties) {
   check("the exact one takes over", rescued.problem.equation().parts().tangent().take_exact());
   rescued.finish();
   check("and ends the run with its solution",
-        difference(rescued.problem.state().body_pair_loads[0].force,
-                   as_given.problem.state().body_pair_loads[0].force),
-        0.01);
+        difference(rescued.problem.state().body_pair_loads[0].force, usual.force), 0.01);
   check("it can be taken once", !rescued.problem.equation().parts().tangent().take_exact());
 }
 

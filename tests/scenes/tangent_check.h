@@ -64,7 +64,7 @@ inline parameters::Scene make_curved(const SurfacePart &part, const double frict
   scene.tools[0].motion.translation.value = {"0.01*t", "0", "0.01*t"};
   scene.pairs[0].friction = make_coulomb(friction_coefficient);
   scene.pairs[0].initial.allowed_penetration.value = 1.;
-  scene.time_stepping.initial_step = 0.1;
+  scene.time_stepping.initial_step = 0.25;
   return scene;
 }
 

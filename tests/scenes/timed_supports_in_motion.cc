@@ -46,11 +46,11 @@ parameters::Scene read(const std::string &scheme, const double fade_time, const 
   text << "    end\n  end\nend\nsubsection Time stepping\n  set Scheme = " << scheme
        << "\n  set End time = " << release + 3. * period << "\n";
   if (scheme != "explicit")
-    text << "  set Step control = fixed\n  set Initial step = 0.0005\n";
+    text << "  set Step control = fixed\n  set Initial step = 0.001\n";
   text << "end\nsubsection Output\n  set Format = none\nend\n";
   text.close();
   parameters::Scene scene = parameters::Scene::read(file);
-  scene.explicit_dynamics.safety_factor = 0.02;
+  scene.explicit_dynamics.safety_factor = 0.05;
   scene.explicit_dynamics.linear_viscosity = scene.explicit_dynamics.quadratic_viscosity = 0.;
   scene.implicit_dynamics.mass = parameters::ImplicitDynamics::Mass::lumped;
   scene.implicit_dynamics.error_tolerance = 0.;

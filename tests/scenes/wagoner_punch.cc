@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Wagoner's punch, on a coarse mesh, to 40 mm, and to 20 mm with two other tangents: one force; the sheet
+// Wagoner's punch, on a coarse mesh, to 40 mm, and to 10 mm with two other tangents: one force; the sheet
 // strains most where it stops sticking to the punch, not at its centre; punch and die and clamp balance;
 // residuals fall quadratically.
 #include "scene_run.h"
@@ -41,8 +41,8 @@ StrainProfile strain_profile(const SceneRun &run) {
 }
 
 struct Result {
-  StrainProfile half_way, end; ///< at 20 and 40 mm
-  double punch = 0., half_way_punch = 0., drift = 1.;
+  StrainProfile half_way, end;                     ///< at 20 and 40 mm
+  double punch = 0., early_punch = 0., drift = 1.; ///< early: at 10 mm
   double iterations_per_step = 0., order = 0.;
 };
 
@@ -53,7 +53,7 @@ Result press(const parameters::ContactTangent tangent, const double tolerance, c
   parameters.bodies[0].mesh.positions.value.clear(); // bricks of one size, since they are so few
   parameters.time_stepping.max_step = 0.025;
   parameters.output.interval = 0.;
-  parameters.time_stepping.stops = {0.5};
+  parameters.time_stepping.stops = {0.25, 0.5};
   parameters.time_stepping.end_time = end_time;
   parameters.solver.contact_tangent = tangent;
   parameters.solver.force_tolerance = tolerance;
@@ -62,10 +62,10 @@ Result press(const parameters::ContactTangent tangent, const double tolerance, c
   std::vector<double> orders;
   Result result;
   run.finish([&](const NewtonReport &report) {
-    if (run.control.time() == 0.5) {
+    if (run.control.time() == 0.25)
+      result.early_punch = run.load(0).force[2];
+    if (run.control.time() == 0.5)
       result.half_way = strain_profile(run);
-      result.half_way_punch = run.load(0).force[2];
-    }
     const auto &i = report.iterations;
     const std::size_t n = i.size();
     if (n > 2 && i[n - 1].force < 1e-2)
@@ -86,12 +86,12 @@ Result press(const parameters::ContactTangent tangent, const double tolerance, c
 BILLET_MPI_TEST(wagoner_punch) {
   using parameters::ContactTangent;
   const Result exact = press(ContactTangent::exact, 1e-6, 1.),
-               consistent = press(ContactTangent::consistent, 1e-6, 0.5),
-               continuum = press(ContactTangent::continuum, 1e-2, 0.5);
-  check("exact and consistent tangent: one force",
-        std::abs(consistent.half_way_punch / exact.half_way_punch - 1.), 0.01);
+               consistent = press(ContactTangent::consistent, 1e-6, 0.25),
+               continuum = press(ContactTangent::continuum, 1e-2, 0.25);
+  check("exact and consistent tangent: one force", std::abs(consistent.early_punch / exact.early_punch - 1.),
+        0.01);
   check("continuum tangent, at a loose tolerance: about the same",
-        std::abs(continuum.half_way_punch / exact.half_way_punch - 1.), 0.02);
+        std::abs(continuum.early_punch / exact.early_punch - 1.), 0.02);
   check("the punch pushes down", exact.punch < -15e3);
   // On fine meshes it peaks at 17.1 and at 29.9 mm; the elements here are up to 5 mm long.
   const double half_element = 2.5;
