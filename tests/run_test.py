@@ -176,7 +176,7 @@ def replace_line(file: Path, key: str, numbers: Sequence[str]) -> None:
 def updated(line: str, printed: dict[str, str], old: dict[str, tuple[float, float]]) -> list[str]:
     """Returns the numbers that a test printed: those that are in its line, or all if it has none. Tolerances
     stay."""
-    found = dict(re.findall(r"([^;:]+?) = \S+( \+- \S+)", line.partition(": ")[2]))
+    found = dict(re.findall(r"([^;:]+?) = \S+( \+- [^;\s]+)", line.partition(": ")[2]))
     tolerances = {name.strip(): tolerance for name, tolerance in found.items()}
     return [
         f"{name} = {value}{tolerances.get(name, '')}"
