@@ -100,7 +100,14 @@ def run(folder: Path, command: Sequence[str]) -> int:
             server.start(command[1:], folder, output, output)
             return server.wait()[0]
         if first is not None and starts_ranks:
-            command = [*command[:first], sys.executable, "-B", str(ROOT / "tests/rank.py"), *command[first:]]
+            command = [
+                *command[:first],
+                sys.executable,
+                "-B",
+                "-S",
+                str(ROOT / "tests/rank.py"),
+                *command[first:],
+            ]
         return subprocess.run(
             command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT
         ).returncode

@@ -29,7 +29,7 @@ TIME_LIMIT = 900 if IS_SANITIZED else 60  # seconds; ranks that wait for each ot
 # Of Open MPI, for all that these scripts start: ranks that wait let others compute.
 os.environ.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
 # How mpirun starts ranks in children of a process that has loaded the libraries.
-RANK = (sys.executable, "-B", str(HERE.parent / "rank.py"))
+RANK = (sys.executable, "-B", "-S", str(HERE.parent / "rank.py"))
 # bytes of addresses for each process; MPI's libraries alone want a good part of it
 MEMORY_LIMIT = 8_000_000 * 1024
 

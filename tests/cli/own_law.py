@@ -95,7 +95,8 @@ def _() -> None:
 
 @check("the example builds with the installed files")
 def _() -> None:
-    call(cmake, "-S", "own_law", "-B", "own_law/build", "-D", f"CMAKE_PREFIX_PATH={here / 'installed'}")
+    prefix = f"CMAKE_PREFIX_PATH={here / 'installed'}"
+    call(cmake, "-G", "Ninja", "-S", "own_law", "-B", "own_law/build", "-D", prefix)
     call(cmake, "--build", "own_law/build")
 
 

@@ -20,6 +20,7 @@ import unittest
 import unittest.mock
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any, Callable
 
 from modules import HERE, ROOT, TRADE
 from billet_tools.trade import parameters
@@ -92,6 +93,8 @@ class Trade(unittest.TestCase):
 
     temporary: TemporaryDirectory[str]
     folder: Path
+    # Runs within this process draw pictures; that takes half of their time.
+    pictures: Callable[[], contextlib.AbstractContextManager[Any]] = contextlib.nullcontext
 
     @classmethod
     def setUpClass(cls) -> None:
@@ -115,7 +118,7 @@ class Trade(unittest.TestCase):
         previous, said, printed = os.getcwd(), io.StringIO(), io.StringIO()
         os.chdir(self.folder)
         try:
-            with contextlib.redirect_stderr(said), contextlib.redirect_stdout(printed):
+            with contextlib.redirect_stderr(said), contextlib.redirect_stdout(printed), self.pictures():
                 return run(list(words), str(TRADE)), printed.getvalue(), said.getvalue()
         finally:
             os.chdir(previous)
@@ -403,6 +406,8 @@ class Sweeps(Trade):
 
 
 class Command(Trade):
+    pictures = staticmethod(lambda: unittest.mock.patch("matplotlib.figure.Figure.savefig"))
+
     def test_stop_while_others_wait(self) -> None:
         """A study that is stopped ends, though the run after the one that was stopped takes its time."""
 
