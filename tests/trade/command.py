@@ -20,7 +20,7 @@ import unittest
 import unittest.mock
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, Callable
+from typing import Any
 
 from modules import HERE, ROOT, TRADE
 from billet_tools.trade import parameters
@@ -93,8 +93,6 @@ class Trade(unittest.TestCase):
 
     temporary: TemporaryDirectory[str]
     folder: Path
-    # Runs within this process draw pictures; that takes half of their time.
-    pictures: Callable[[], contextlib.AbstractContextManager[Any]] = contextlib.nullcontext
 
     @classmethod
     def setUpClass(cls) -> None:
@@ -109,6 +107,10 @@ class Trade(unittest.TestCase):
     @classmethod
     def tearDownClass(cls) -> None:
         cls.temporary.cleanup()
+
+    def pictures(self) -> contextlib.AbstractContextManager[Any]:
+        """Within it, runs within this process draw pictures."""
+        return contextlib.nullcontext()
 
     def setUp(self) -> None:
         self.log = self.folder / f"{self.id()}.log"
@@ -406,7 +408,9 @@ class Sweeps(Trade):
 
 
 class Command(Trade):
-    pictures = staticmethod(lambda: unittest.mock.patch("matplotlib.figure.Figure.savefig"))
+    def pictures(self) -> contextlib.AbstractContextManager[Any]:
+        """Draws none, which takes half of the time."""
+        return unittest.mock.patch("matplotlib.figure.Figure.savefig")
 
     def test_stop_while_others_wait(self) -> None:
         """A study that is stopped ends, though the run after the one that was stopped takes its time."""
