@@ -15,13 +15,25 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tools"))
 from billet_tools.fork_server import ForkServer  # noqa: E402
 
-os.sched_setaffinity(0, range(os.cpu_count() or 1))  # mpirun binds ranks to cores, which the server is not
-server = ForkServer(sys.argv[1], is_shared=True)
-process = server.start(sys.argv[2:], os.getcwd(), sys.stdout.buffer, sys.stderr.buffer)
-for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGUSR2):
-    signal.signal(number, lambda which, _: os.kill(process, which))
-code, _ = server.wait()
-if code < 0:  # mpirun tells of the signal
-    signal.signal(-code, signal.SIG_DFL)
-    os.kill(os.getpid(), -code)
-sys.exit(code)
+IS_SANITIZED = "ASAN_OPTIONS" in os.environ  # sanitizers want processes of their own
+# What mpirun starts before a program's name.
+RANK = () if IS_SANITIZED else (sys.executable, "-B", "-S", str(Path(__file__).resolve()))
+
+
+def main() -> None:
+    """Does not return."""
+    # mpirun binds ranks to cores, which the server is not
+    os.sched_setaffinity(0, range(os.cpu_count() or 1))
+    server = ForkServer(sys.argv[1], is_shared=True)
+    process = server.start(sys.argv[2:], os.getcwd(), sys.stdout.buffer, sys.stderr.buffer)
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGUSR2):
+        signal.signal(number, lambda which, _: os.kill(process, which))
+    code, _ = server.wait()
+    if code < 0:  # mpirun tells of the signal
+        signal.signal(-code, signal.SIG_DFL)
+        os.kill(os.getpid(), -code)
+    sys.exit(code)
+
+
+if __name__ == "__main__":
+    main()

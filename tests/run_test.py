@@ -32,12 +32,9 @@ import sys
 from pathlib import Path
 from typing import Sequence
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tools"))
-from billet_tools.fork_server import ForkServer  # noqa: E402
+from rank import IS_SANITIZED, RANK, ForkServer
 
-ENVIRONMENT = ROOT / "scripts/environment.sh"
-IS_SANITIZED = "ASAN_OPTIONS" in os.environ  # sanitizers want processes of their own
+ENVIRONMENT = Path(__file__).resolve().parents[1] / "scripts/environment.sh"
 
 # Output that differs between runs or versions: deal.II's debug output, negative zeros, and times.
 VOLATILE = (
@@ -92,22 +89,13 @@ def run(folder: Path, command: Sequence[str]) -> int:
     folder.mkdir(parents=True)
     os.chdir(folder)
     set_environment(uses_mpirun=any(Path(word).name.startswith("mpi") for word in command))
-    starts_ranks = Path(command[0]).name.startswith("mpi")
-    first = next((i for i, word in enumerate(command) if serves(Path(word))), None)
     with open("stdout", "wb") as output:
-        if first == 0:
+        if serves(Path(command[0])):
             server = ForkServer(command[0], is_shared=True)
             server.start(command[1:], folder, output, output)
             return server.wait()[0]
-        if first is not None and starts_ranks:
-            command = [
-                *command[:first],
-                sys.executable,
-                "-B",
-                "-S",
-                str(ROOT / "tests/rank.py"),
-                *command[first:],
-            ]
+        if Path(command[0]).name.startswith("mpi"):  # with its option, and the number of ranks
+            command = [*command[:3], *RANK, *command[3:]]
         return subprocess.run(
             command, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT
         ).returncode

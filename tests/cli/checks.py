@@ -19,17 +19,15 @@ from typing import Callable, Mapping, NamedTuple, Sequence
 
 HERE = Path(__file__).resolve().parent
 SHIPPED = HERE.parents[1] / "prm"
-sys.path.insert(0, str(HERE.parents[1] / "tools"))
+sys.path[:0] = [str(HERE.parent), str(HERE.parents[1] / "tools")]
 from billet_tools.fork_server import ForkServer, Starter  # noqa: E402
 from edits import edit, lines_of  # noqa: E402
+from rank import IS_SANITIZED, RANK  # noqa: E402
 
 # Sanitizers take their time, and that of addresses takes all of them for itself.
-IS_SANITIZED = "ASAN_OPTIONS" in os.environ
 TIME_LIMIT = 900 if IS_SANITIZED else 60  # seconds; ranks that wait for each other fail
 # Of Open MPI, for all that these scripts start: ranks that wait let others compute.
 os.environ.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
-# How mpirun starts ranks in children of a process that has loaded the libraries.
-RANK = (sys.executable, "-B", "-S", str(HERE.parent / "rank.py"))
 # bytes of addresses for each process; MPI's libraries alone want a good part of it
 MEMORY_LIMIT = 8_000_000 * 1024
 
@@ -234,7 +232,7 @@ class Program:
         """Returns the command."""
         if ranks == 1:
             return [self.path, *arguments]
-        return [*self.launcher, str(ranks), *(() if IS_SANITIZED else RANK), self.path, *arguments]
+        return [*self.launcher, str(ranks), *RANK, self.path, *arguments]
 
 
 class Run:

@@ -20,7 +20,6 @@ import unittest
 import unittest.mock
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 from modules import HERE, ROOT, TRADE
 from billet_tools.trade import parameters
@@ -108,10 +107,6 @@ class Trade(unittest.TestCase):
     def tearDownClass(cls) -> None:
         cls.temporary.cleanup()
 
-    def pictures(self) -> contextlib.AbstractContextManager[Any]:
-        """Within it, runs within this process draw pictures."""
-        return contextlib.nullcontext()
-
     def setUp(self) -> None:
         self.log = self.folder / f"{self.id()}.log"
 
@@ -120,7 +115,7 @@ class Trade(unittest.TestCase):
         previous, said, printed = os.getcwd(), io.StringIO(), io.StringIO()
         os.chdir(self.folder)
         try:
-            with contextlib.redirect_stderr(said), contextlib.redirect_stdout(printed), self.pictures():
+            with contextlib.redirect_stderr(said), contextlib.redirect_stdout(printed):
                 return run(list(words), str(TRADE)), printed.getvalue(), said.getvalue()
         finally:
             os.chdir(previous)
@@ -408,10 +403,6 @@ class Sweeps(Trade):
 
 
 class Command(Trade):
-    def pictures(self) -> contextlib.AbstractContextManager[Any]:
-        """Draws none, which takes half of the time."""
-        return unittest.mock.patch("matplotlib.figure.Figure.savefig")
-
     def test_stop_while_others_wait(self) -> None:
         """A study that is stopped ends, though the run after the one that was stopped takes its time."""
 
