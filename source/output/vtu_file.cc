@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/vtu_file.h"
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -94,35 +96,98 @@ std::vector<Section> make_sections(const MPI_Comm communicator, const Grid &grid
   return sections;
 }
 
-/// Returns the XML before the numbers. `sizes`: bytes of all ranks, of each array.
-std::string make_head(const std::vector<Section> &sections, const std::vector<std::uint64_t> &sizes,
-                      const std::string &material, const std::uint64_t n_points,
-                      const std::uint64_t n_cells) {
-  std::ostringstream head;
-  head << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+/// Returns the XML before each array, and the XML after the last one.
+std::vector<std::string> make_tags(const std::vector<Section> &sections, const std::string &material,
+                                   const std::uint64_t n_points, const std::uint64_t n_cells) {
+  std::vector<std::string> tags;
+  std::ostringstream tag;
+  tag << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
   if (!material.empty()) {
-    head << "<FieldData><DataArray type=\"String\" Name=\"material_name\" NumberOfTuples=\"1\" "
-            "format=\"ascii\">";
+    tag << "<FieldData><DataArray type=\"String\" Name=\"material_name\" NumberOfTuples=\"1\" "
+           "format=\"ascii\">";
     for (const char c : material)
-      head << static_cast<unsigned int>(static_cast<unsigned char>(c)) << " ";
-    head << "0</DataArray></FieldData>\n";
+      tag << static_cast<unsigned int>(static_cast<unsigned char>(c)) << " ";
+    tag << "0</DataArray></FieldData>\n";
   }
-  head << "<Piece NumberOfPoints=\"" << n_points << "\" NumberOfCells=\"" << n_cells << "\">\n";
-  std::uint64_t offset = 0;
-  std::size_t next = 0;
+  tag << "<Piece NumberOfPoints=\"" << n_points << "\" NumberOfCells=\"" << n_cells << "\">\n";
   for (const Section &section : sections) {
-    head << "<" << section.name << ">\n";
+    tag << "<" << section.name << ">\n";
     for (const FileArray &array : section.arrays) {
-      head << "<DataArray type=\"" << array.type << "\" Name=\"" << escape_xml(array.name)
-           << "\" NumberOfComponents=\"" << array.n_components << "\" format=\"appended\" offset=\"" << offset
-           << "\"/>\n";
-      offset += sizeof(std::uint64_t) + sizes[next++];
+      tag << "<DataArray type=\"" << array.type << "\" Name=\"" << escape_xml(array.name)
+          << "\" NumberOfComponents=\"" << array.n_components << "\" format=\"binary\">\n";
+      tags.push_back(tag.str());
+      tag.str("\n</DataArray>\n");
+      tag.seekp(0, std::ios::end);
     }
-    head << "</" << section.name << ">\n";
+    tag << "</" << section.name << ">\n";
   }
-  head << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-  return head.str();
+  tag << "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  tags.push_back(tag.str());
+  return tags;
+}
+
+/// Groups of three bytes, of which base64 makes four characters each; the last group of a text may be
+/// shorter.
+constexpr std::uint64_t group_bytes = 3, group_characters = 4;
+
+constexpr std::uint64_t n_groups(const std::uint64_t n_bytes) {
+  return (n_bytes + group_bytes - 1) / group_bytes;
+}
+
+/// Text of an array as base64, as far as it is this rank's: the groups that begin in its bytes.
+struct ArrayText {
+  std::uint64_t first_character, n_characters; // of this rank's text, and of the text of all ranks
+  std::string characters;
+};
+
+/// Encodes arrays, each with its size in bytes before it. Groups go across the borders of ranks.
+/// Collective.
+std::vector<ArrayText> encode(const MPI_Comm communicator, const std::vector<std::string> &arrays) {
+  int rank = 0, n_ranks = 1;
+  MPI_Comm_rank(communicator, &rank);
+  MPI_Comm_size(communicator, &n_ranks);
+  std::vector<std::uint64_t> sizes;
+  for (const std::string &array : arrays)
+    sizes.push_back(array.size());
+  const auto [before, all] = sum_ranks(communicator, sizes);
+
+  // The first bytes of each rank, which may end the last group of the ranks before it.
+  struct Start {
+    unsigned char count, bytes[group_bytes - 1];
+  };
+  std::vector<Start> own(arrays.size()), starts(arrays.size() * static_cast<std::size_t>(n_ranks));
+  for (std::size_t a = 0; a < arrays.size(); ++a) {
+    own[a].count = static_cast<unsigned char>(std::min(arrays[a].size(), std::size_t{group_bytes - 1}));
+    std::copy_n(arrays[a].begin(), own[a].count, own[a].bytes);
+  }
+  const int n = static_cast<int>(arrays.size() * sizeof(Start));
+  MPI_Allgather(own.data(), n, MPI_BYTE, starts.data(), n, MPI_BYTE, communicator);
+
+  std::vector<ArrayText> texts;
+  for (std::size_t a = 0; a < arrays.size(); ++a) {
+    const std::string size = to_bytes<std::uint64_t>(std::array<std::uint64_t, 1>{all[a]});
+    const std::uint64_t total = size.size() + all[a];
+    const std::uint64_t begin = rank == 0 ? 0 : size.size() + before[a];
+    std::vector<unsigned char> bytes;
+    bytes.reserve(size.size() + arrays[a].size() + group_bytes);
+    if (rank == 0)
+      bytes.assign(size.begin(), size.end());
+    bytes.insert(bytes.end(), arrays[a].begin(), arrays[a].end());
+    const std::uint64_t end = begin + bytes.size(), first = n_groups(begin), last = n_groups(end);
+    if (first < last) {
+      for (auto r = static_cast<std::size_t>(rank) + 1; r < static_cast<std::size_t>(n_ranks); ++r) {
+        const Start &start = starts[r * arrays.size() + a];
+        bytes.insert(bytes.end(), start.bytes, start.bytes + start.count);
+      }
+      bytes.resize(std::min(group_bytes * last, total) - begin);
+      bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(group_bytes * first - begin));
+    } else
+      bytes.clear();
+    texts.push_back({group_characters * first, group_characters * n_groups(total),
+                     dealii::Utilities::encode_base64(bytes)});
+  }
+  return texts;
 }
 
 /// File into which all ranks write.
@@ -177,37 +242,32 @@ private:
 
 } // namespace
 
+// Numbers stand inside their elements, since VTK 9.2 fails to read appended ones with the expat of Debian 12
+// (2.5.0-1+deb12u5).
 bool write_vtu(const MPI_Comm communicator, const std::string &file_name, const Grid &grid) {
-  const std::vector<Section> sections = make_sections(communicator, grid);
-  std::vector<std::uint64_t> sizes{grid.n_points(), grid.n_cells()};
-  for (const Section &section : sections)
-    for (const FileArray &array : section.arrays)
-      sizes.push_back(array.bytes.size());
-  auto [before, all] = sum_ranks(communicator, sizes);
-  const std::uint64_t n_points = all[0], n_cells = all[1];
-  all.erase(all.begin(), all.begin() + 2);
-  before.erase(before.begin(), before.begin() + 2);
+  std::vector<Section> sections = make_sections(communicator, grid);
+  const auto n_all = sum_ranks(communicator, {grid.n_points(), grid.n_cells()})[1];
+  const std::vector<std::string> tags = make_tags(sections, grid.material, n_all[0], n_all[1]);
+  std::vector<std::string> arrays;
+  for (Section &section : sections)
+    for (FileArray &array : section.arrays)
+      arrays.push_back(std::move(array.bytes));
+  const std::vector<ArrayText> texts = encode(communicator, arrays);
 
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
   const bool is_first = rank == 0;
-  const std::string head = make_head(sections, all, grid.material, n_points, n_cells);
   SharedFile file(communicator, file_name);
-  file.write(0, is_first ? head : "");
-  std::uint64_t offset = head.size();
-  std::size_t next = 0;
-  for (const Section &section : sections)
-    for (const FileArray &array : section.arrays) {
-      // The first rank's bytes begin with the size of the whole array.
-      const std::uint64_t size = all[next];
-      if (is_first)
-        file.write(offset, to_bytes<std::uint64_t>(std::array<std::uint64_t, 1>{size}) + array.bytes);
-      else
-        file.write(offset + sizeof(size) + before[next], array.bytes);
-      offset += sizeof(size) + size;
-      ++next;
-    }
-  file.write(offset, is_first ? "\n</AppendedData>\n</VTKFile>\n" : "");
+  std::uint64_t offset = 0;
+  for (std::size_t a = 0; a < texts.size(); ++a) {
+    const ArrayText &text = texts[a];
+    if (is_first)
+      file.write(offset, tags[a] + text.characters);
+    else
+      file.write(offset + tags[a].size() + text.first_character, text.characters);
+    offset += tags[a].size() + text.n_characters;
+  }
+  file.write(offset, is_first ? tags.back() : "");
   return file.close();
 }
 

@@ -7,6 +7,7 @@
 #include "billet/output/vtu_file.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <cmath>
 #include <cstring>
@@ -38,32 +39,28 @@ Grid make_chain(const std::size_t rank) {
   return grid;
 }
 
-/// Appended arrays of a VTU file.
+/// Arrays of a VTU file, each as base64 in its element.
 class VtuFile {
 public:
   explicit VtuFile(const std::string &name) {
     std::ifstream in(name, std::ios::binary);
     text_.assign(std::istreambuf_iterator<char>(in), {});
-    start_ = text_.find("<AppendedData encoding=\"raw\">");
-    start_ = text_.find('_', start_) + 1;
   }
-  std::string head() const { return text_.substr(0, start_); }
-  bool has(const std::string &what) const { return head().find(what) != std::string::npos; }
+  bool has(const std::string &what) const { return text_.find(what) != std::string::npos; }
 
   template <class Number> std::vector<Number> read(const std::string &name) const {
-    const std::size_t tag = text_.find("Name=\"" + name + "\"");
-    const std::size_t at = text_.find("offset=\"", tag) + std::strlen("offset=\"");
-    const char *data = text_.data() + start_ + std::stoul(text_.substr(at));
+    const std::size_t tag = text_.find("Name=\"" + name + "\""), start = text_.find(">\n", tag) + 2;
+    const auto bytes = dealii::Utilities::decode_base64(text_.substr(start, text_.find('\n', start) - start));
     std::uint64_t size = 0;
-    std::memcpy(&size, data, sizeof(size));
+    std::memcpy(&size, bytes.data(), sizeof(size));
+    check(name + ": as many bytes as it says", bytes.size() == size + sizeof(size));
     std::vector<Number> values(size / sizeof(Number));
-    std::memcpy(values.data(), data + sizeof(size), size);
+    std::memcpy(values.data(), bytes.data() + sizeof(size), size);
     return values;
   }
 
 private:
   std::string text_;
-  std::size_t start_ = 0;
 };
 
 void test_file(const std::size_t n_ranks) {
