@@ -32,7 +32,7 @@ import sys
 from pathlib import Path
 from typing import Sequence
 
-from rank import IS_SANITIZED, RANK, ForkServer
+from rank import IS_SANITIZED, RANK, starter_of
 
 ENVIRONMENT = Path(__file__).resolve().parents[1] / "scripts/environment.sh"
 
@@ -91,9 +91,9 @@ def run(folder: Path, command: Sequence[str]) -> int:
     set_environment(uses_mpirun=any(Path(word).name.startswith("mpi") for word in command))
     with open("stdout", "wb") as output:
         if serves(Path(command[0])):
-            server = ForkServer(command[0], is_shared=True)
-            server.start(command[1:], folder, output, output)
-            return server.wait()[0]
+            starter = starter_of(command[:1], is_shared=True)
+            starter.start(command[1:], folder, output, output)
+            return starter.wait()[0]
         if Path(command[0]).name.startswith("mpi"):  # with its option, and the number of ranks
             command = [*command[:3], *RANK, *command[3:]]
         return subprocess.run(

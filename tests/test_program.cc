@@ -63,6 +63,30 @@ BILLET_COUNT_CALLS(Allgather,
                     MPI_Comm communicator),
                    (from, n, type, to, n_to, type_to, communicator))
 
+BILLET_COUNT_CALLS(Allgatherv,
+                   (const void *from, int n, MPI_Datatype type, void *to, const int *n_to, const int *places,
+                    MPI_Datatype type_to, MPI_Comm communicator),
+                   (from, n, type, to, n_to, places, type_to, communicator))
+BILLET_COUNT_CALLS(Gather,
+                   (const void *from, int n, MPI_Datatype type, void *to, int n_to, MPI_Datatype type_to,
+                    int root, MPI_Comm communicator),
+                   (from, n, type, to, n_to, type_to, root, communicator))
+BILLET_COUNT_CALLS(Gatherv,
+                   (const void *from, int n, MPI_Datatype type, void *to, const int *n_to, const int *places,
+                    MPI_Datatype type_to, int root, MPI_Comm communicator),
+                   (from, n, type, to, n_to, places, type_to, root, communicator))
+BILLET_COUNT_CALLS(Reduce,
+                   (const void *from, void *to, int n, MPI_Datatype type, MPI_Op op, int root,
+                    MPI_Comm communicator),
+                   (from, to, n, type, op, root, communicator))
+BILLET_COUNT_CALLS(Exscan,
+                   (const void *from, void *to, int n, MPI_Datatype type, MPI_Op op, MPI_Comm communicator),
+                   (from, to, n, type, op, communicator))
+BILLET_COUNT_CALLS(Alltoall,
+                   (const void *from, int n, MPI_Datatype type, void *to, int n_to, MPI_Datatype type_to,
+                    MPI_Comm communicator),
+                   (from, n, type, to, n_to, type_to, communicator))
+
 int main(int argc, char *argv[]) {
   std::vector<std::string> words(argv + 1, argv + argc);
   if (words == std::vector<std::string>{"--serve"}) {

@@ -5,6 +5,7 @@
 #include "billet/errors.h"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,6 +28,7 @@ constexpr int max_ranks = 99999;
 
 volatile pid_t mpirun = 0;
 volatile pid_t current_run = 0; // of run_each()
+volatile std::sig_atomic_t is_to_stop = 0;
 
 /// mpirun passes SIGUSR1 and SIGUSR2 on to its ranks, but kills them on other signals. A second
 /// Ctrl-C does that.
@@ -40,6 +42,8 @@ void pass_on(const int signal) {
 }
 
 void pass_on_to_run(const int signal) {
+  if (signal != SIGUSR2)
+    is_to_stop = 1;
   if (current_run > 0)
     kill(current_run, signal);
 }
@@ -63,7 +67,6 @@ std::string take_ranks(std::vector<std::string> &arguments) {
 
 /// Becomes mpirun. Does not return.
 [[noreturn]] void become_mpirun(const std::string &n_ranks, const std::vector<std::string> &arguments) {
-  setpgid(0, 0); // Ctrl-C reaches the launcher alone, which passes it on
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
   std::error_code error;
@@ -95,6 +98,22 @@ int wait_for_ranks(const std::string &file) {
   return code;
 }
 
+/// Signals wait while it lives.
+class SignalsWait {
+public:
+  SignalsWait() {
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, &others_);
+  }
+  ~SignalsWait() { sigprocmask(SIG_SETMASK, &others_, nullptr); }
+  SignalsWait(const SignalsWait &) = delete;
+  SignalsWait &operator=(const SignalsWait &) = delete;
+
+private:
+  sigset_t others_{};
+};
+
 /// Waits for a run of run_each(). Returns its exit code.
 int wait_for_run(const std::string &scene) {
   int status = 0;
@@ -103,6 +122,8 @@ int wait_for_run(const std::string &scene) {
   current_run = 0;
   if (WIFEXITED(status))
     return WEXITSTATUS(status);
+  if (is_to_stop != 0) // while it started
+    return static_cast<int>(ExitCode::stopped);
   const int signal = WTERMSIG(status);
   std::cerr << Diagnostic(diagnostic::internal_error, scene + ": the run was ended by signal " +
                                                           std::to_string(signal) + ", " + strsignal(signal))
@@ -120,28 +141,43 @@ bool is_launched() {
                      [](const char *variable) { return std::getenv(variable) != nullptr; });
 }
 
+pid_t fork_child(const int last_signal) {
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) {
+    setpgid(0, 0); // Ctrl-C reaches the parent alone, which passes it on
+    prctl(PR_SET_PDEATHSIG, last_signal);
+    if (getppid() != parent)
+      _exit(static_cast<int>(ExitCode::internal_error));
+  } else if (child > 0)
+    setpgid(child, child); // before anyone signals the group
+  return child;
+}
+
 std::optional<int> run_each(const std::vector<std::string> &scenes, std::size_t &scene) {
-  const std::array<int, 3> signals = {{SIGINT, SIGTERM, SIGUSR1}};
+  const std::array<int, 4> signals = {{SIGINT, SIGTERM, SIGUSR1, SIGUSR2}};
   int first_code = static_cast<int>(ExitCode::success);
   for (scene = 0; scene < scenes.size(); ++scene) {
     std::cout << "Scene " << scene + 1 << " of " << scenes.size() << ": " << scenes[scene] << std::endl;
     for (const int signal : signals)
       std::signal(signal, pass_on_to_run);
-    current_run = fork();
-    if (current_run == 0) {
-      for (const int signal : signals)
-        std::signal(signal, SIG_DFL);
-      setpgid(0, 0); // Ctrl-C reaches the parent alone, which passes it on
-      return {};
+    {
+      const SignalsWait wait;
+      current_run = fork_child(SIGKILL);
+      if (current_run == 0) {
+        for (const int signal : signals)
+          std::signal(signal, signal == SIGUSR2 ? SIG_IGN : SIG_DFL); // until there is something to write
+        return {};
+      }
     }
     const int code =
         current_run > 0 ? wait_for_run(scenes[scene]) : static_cast<int>(ExitCode::internal_error);
     if (first_code == 0)
       first_code = code;
-    if (code == static_cast<int>(ExitCode::stopped))
+    if (code == static_cast<int>(ExitCode::stopped) || is_to_stop != 0)
       break;
   }
-  return first_code;
+  const bool is_cut = is_to_stop != 0 && scene + 1 < scenes.size();
+  return first_code == 0 && is_cut ? static_cast<int>(ExitCode::stopped) : first_code;
 }
 
 std::optional<int> launch(const std::vector<std::string> &arguments) {
@@ -158,7 +194,7 @@ std::optional<int> launch(const std::vector<std::string> &arguments) {
     setenv(exit_code_file, file.c_str(), 1);
     for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2})
       std::signal(signal, pass_on);
-    mpirun = fork();
+    mpirun = fork_child(SIGTERM);
     if (mpirun == 0)
       become_mpirun(n_ranks, others);
     const int code = mpirun > 0 ? wait_for_ranks(file) : static_cast<int>(ExitCode::internal_error);

@@ -2,6 +2,7 @@
 #include "billet/run/serve.h"
 
 #include "billet/errors.h"
+#include "billet/run/launch.h"
 
 #include <csignal>
 #include <fcntl.h>
@@ -61,7 +62,6 @@ bool receive(RunRequest &request) {
 
 /// Gives this process the folder, the environment and the outputs of a run. Returns its arguments.
 std::vector<std::string> become_run(const RunRequest &request) {
-  setpgid(0, 0);
   const int nothing = open("/dev/null", O_RDONLY);
   if (chdir(request.words.front().c_str()) != 0 || dup2(nothing, STDIN_FILENO) < 0 ||
       dup2(request.outputs[0], STDOUT_FILENO) < 0 || dup2(request.outputs[1], STDERR_FILENO) < 0)
@@ -95,20 +95,41 @@ void wait_for(const pid_t child, RunEnd &end) {
   end.seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
+/// Whether a user's own process is at the other end: anyone may find the socket.
+bool is_own(const int connection) {
+  ucred other{};
+  socklen_t size = sizeof other;
+  return getsockopt(connection, SOL_SOCKET, SO_PEERCRED, &other, &size) == 0 && other.uid == geteuid();
+}
+
+/// Removes children that have ended. Returns whether others go on.
+bool has_children() {
+  pid_t ended = 0;
+  do
+    ended = waitpid(-1, nullptr, WNOHANG);
+  while (ended > 0);
+  return ended == 0;
+}
+
 /// Gives each of those who connect a child of this process, whose standard input their socket is.
 /// Returns whether this process is such a child.
 bool serve_each() {
   pollfd someone{STDIN_FILENO, POLLIN, 0};
-  while (poll(&someone, 1, patience) > 0) {
+  while (poll(&someone, 1, patience) > 0 || has_children()) {
+    if (someone.revents == 0)
+      continue;
     const int connection = accept(STDIN_FILENO, nullptr, nullptr);
-    if (connection >= 0 && fork() == 0) {
+    if (connection < 0) { // too many files are open, or who came has gone
+      poll(nullptr, 0, 100);
+      continue;
+    }
+    if (is_own(connection) && fork_child(SIGKILL) == 0) {
       dup2(connection, STDIN_FILENO);
       close(connection);
       return true;
     }
     close(connection);
-    while (waitpid(-1, nullptr, WNOHANG) > 0) {
-    }
+    has_children();
   }
   return false;
 }
@@ -132,7 +153,7 @@ std::optional<std::vector<std::string>> serve_runs() {
     RunRequest request;
     if (!receive(request))
       break;
-    const pid_t child = fork();
+    const pid_t child = fork_child(SIGKILL);
     if (child == 0)
       return become_run(request);
     for (const int output : request.outputs)

@@ -2,16 +2,33 @@
 """Usage: several_scenes.py BILLET
 
 Runs several scenes with one command, in an empty current folder: each must end as it does by itself, bit by
-bit, and a crash must end only one of them.
+bit, and a crash must end only one of them. Signals reach them. The same of runs that `billet --serve` starts.
 """
 
 from __future__ import annotations
 
+import atexit
 import os
+import signal
+import subprocess
 import sys
+import time
 from pathlib import Path
 
-from checks import HERE, Checks, enter_folder, equal, read_text, run, says, write_text
+from checks import (
+    HERE,
+    IS_SANITIZED,
+    SHIPPED,
+    Checks,
+    ForkServer,
+    enter_folder,
+    equal,
+    read_text,
+    require,
+    run,
+    says,
+    write_text,
+)
 
 program = sys.argv[1]
 check = Checks()
@@ -68,6 +85,121 @@ def _() -> None:
         ended = run(program, option, "x", "a.prm", "b.prm")
         equal("exit code", ended.code, 2)
         says(rf"'{option}' is for one scene, and 2 are named", ended.errors)
+
+
+LONG = "Time stepping/End time=1e9"  # no run of a test gets there
+PATIENCE = 60.0  # seconds
+
+
+def started(*arguments: str) -> subprocess.Popen[str]:
+    """Starts a long run and two short ones, and waits until the first one is announced."""
+    write_scenes("long", "second", "third")
+    process = subprocess.Popen(
+        [program, "--force", "--quiet", *arguments, "long.prm", "second.prm", "third.prm"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    atexit.register(process.kill)
+    require(process.stdout is not None and "Scene 1 of 3" in process.stdout.readline(), "no first scene")
+    return process
+
+
+def rest_of(process: subprocess.Popen[str]) -> tuple[int, str]:
+    """Returns the exit code of a run and what else it says."""
+    text, _ = process.communicate(timeout=PATIENCE)
+    return process.returncode, text
+
+
+def ends(number: int) -> bool:
+    """Waits for a process that is no child of this one."""
+    last = time.monotonic() + PATIENCE
+    while Path(f"/proc/{number}/stat").exists() and time.monotonic() < last:
+        if Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()[0] == "Z":
+            return True
+        time.sleep(0.02)
+    return not Path(f"/proc/{number}/stat").exists()
+
+
+def child_of(number: int) -> int:
+    """Waits for the child of a process."""
+    last = time.monotonic() + PATIENCE
+    while time.monotonic() < last:
+        children = Path(f"/proc/{number}/task/{number}/children").read_text().split()
+        if children:
+            return int(children[0])
+        time.sleep(0.02)
+    raise TimeoutError(f"process {number} has no child")
+
+
+@check("a signal to stop ends the scene, also one that starts, and leaves out the others")
+def _() -> None:
+    for wait in (0.0, 0.3):
+        process = started("--set", LONG)
+        time.sleep(wait)
+        process.send_signal(signal.SIGINT)
+        code, text = rest_of(process)
+        equal("exit code", code, 5)
+        require("Scene 2" not in text and "internal-error" not in text, text)
+
+
+@check("a signal for a checkpoint reaches the scene, and all run on")
+def _() -> None:
+    process = started()
+    time.sleep(0.3)
+    process.send_signal(signal.SIGUSR2)
+    code, text = rest_of(process)
+    equal("exit code", code, 0)
+    says(r"^Scene 3 of 3: third\.prm$", text)
+
+
+@check("the end of the parent is that of the scene")
+def _() -> None:
+    process = started("--set", LONG)
+    scene = child_of(process.pid)
+    process.kill()
+    process.wait()
+    require(ends(scene), "the scene runs on")
+
+
+def serve(server: ForkServer, *arguments: str) -> int:
+    """Starts a run in this folder. Returns the number of its process."""
+    with open("served.txt", "wb") as output:
+        return server.start(arguments, os.getcwd(), output, output)
+
+
+if not IS_SANITIZED:
+
+    @check("runs that are served end as by themselves, bit by bit")
+    def _() -> None:
+        write_scenes("served")
+        write_text("other.prm", read_text(SHIPPED / "billet_upsetting.prm"))
+        server = ForkServer(program)
+        for name, folder in (("served", "served"), ("other", "results")):
+            options = ("--force", "--output", folder, f"{name}.prm")
+            serve(server, *options)
+            equal("exit code", server.wait()[0], 0)
+            kept = {file.name: file.read_bytes() for file in Path(folder).iterdir()}
+            equal("exit code alone", run(program, *options).code, 0)
+            for file in Path(folder).glob("*.vtu"):
+                equal(file.name, kept[file.name], file.read_bytes())
+            equal("history", kept["history.csv"], Path(folder, "history.csv").read_bytes())
+        server.close()
+
+    @check("who asked for a run and leaves ends it, and so does the end of the server")
+    def _() -> None:
+        write_scenes("long", "second")
+        for leave in ("client", "server"):
+            server = ForkServer(program)
+            process = serve(server, "--force", "--set", LONG, "long.prm", "second.prm")
+            scene = child_of(process)
+            if leave == "server":
+                os.kill(
+                    int(Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[1]),
+                    signal.SIGKILL,
+                )
+            server.close()
+            require(ends(process) and ends(scene), f"without its {leave} the run goes on")
 
 
 sys.exit(check.finish())

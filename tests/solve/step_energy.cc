@@ -30,13 +30,12 @@ Verdict judge_next(const double t_n, const double length) {
 }
 
 void check_limits() {
-  check("0.15 of all work is much", is_rejected(1.52, 1., 9.) && !is_rejected(1.48, 1., 9.));
-  check("if it is 0.4 of the step's", is_rejected(4.1, 10., 2.) && !is_rejected(3.9, 10., 2.));
-  check("and a tenth of that was done before", is_rejected(1., 1., 0.102) && !is_rejected(1., 1., 0.098));
-  check("steps are cut to 1/32",
-        judge_next(1., 0.1 / 31.) == Verdict::rejected && judge_next(1., 0.1 / 33.) == Verdict::jump);
-  check("a part of 1e-6 of a step is none", judge_next(1.1 - 0.9e-7, 1e-3) == Verdict::rejected &&
-                                                judge_next(1.1 - 1.1e-7, 1e-3) == Verdict::jump);
+  check("much of all work", is_rejected(5., 5., 5.) && !is_rejected(0.05, 1., 9.));
+  check("and of the step's", is_rejected(10., 10., 2.) && !is_rejected(0.5, 10., 2.));
+  check("after some was done before", is_rejected(1., 1., 1.) && !is_rejected(1., 1., 1e-3));
+  check("steps are cut, and not for ever",
+        judge_next(1., 0.1 / 4.) == Verdict::rejected && judge_next(1., 0.1 / 1000.) == Verdict::jump);
+  check("round-off of a step is none", judge_next(1.1 - 1e-12, 1e-3) == Verdict::rejected);
 }
 
 } // namespace

@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import IO, Callable, Mapping, Sequence, Union
 
 Restrict = Union[Callable[[], None], None]
-OF_MPI = ("OMPI_", "PMIX_", "PRTE_", "ORTE_")  # beginnings of variables that a rank reads when MPI starts
+# Beginnings of variables that a rank reads when MPI starts.
+OF_MPI = ("OMPI_", "PMIX_", "PRTE_", "ORTE_", "OPAL_", "PMI_", "HYDRA_")
 
 
 def variables(of_mpi: bool) -> dict[str, str]:
@@ -53,21 +54,24 @@ class ForkServer:
         program = Path(program).resolve()
         self._process: subprocess.Popen[bytes] | None = None
         if is_shared:
-            self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-            self._join(program, restrict)
+            self.serves = self._join(program, restrict)
         else:
             self._socket, its_socket = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
             self._process = serving(program, its_socket, restrict)
-        try:
-            self.serves = self._receive("i", self.PATIENCE) is not None
-        except TimeoutError:  # it does something else
-            self.serves = False
-            if self._process:
+            self.serves = self._is_served()
+            if not self.serves:  # it does something else
                 self._process.kill()
         atexit.register(self.close)
 
-    def _join(self, program: Path, restrict: Restrict) -> None:
-        """Connects to the shared server, which is started if there is none."""
+    def _is_served(self) -> bool:
+        """Waits for a server's first message."""
+        try:
+            return self._receive("i", self.PATIENCE) is not None
+        except TimeoutError:
+            return False
+
+    def _join(self, program: Path, restrict: Restrict) -> bool:
+        """Connects to the shared server, which is started if there is none. Returns whether it serves."""
         file = program.stat()
         what = [program, file.st_ino, file.st_mtime_ns, restrict.__name__ if restrict else ""]
         others = variables(of_mpi=False)
@@ -76,20 +80,30 @@ class ForkServer:
         # A name of Linux that is no file.
         address = b"\0billet-" + hashlib.sha256(repr((what, sorted(others.items()))).encode()).digest()
         for _ in range(1000):
+            self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
             try:
                 self._socket.connect(address)
-                return
+                if not self._is_own():
+                    return False
+                if self._is_served():
+                    return True
             except ConnectionRefusedError:
                 listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-            try:
-                listener.bind(address)
-            except OSError:  # another is about to start it
-                listener.close()
-                time.sleep(0.01)
-                continue
-            listener.listen(64)
-            serving(program, listener, restrict, "/")
-        raise RuntimeError(f"{program} --serve ends at once")
+                try:
+                    listener.bind(address)
+                    listener.listen(64)
+                    serving(program, listener, restrict, "/")
+                except OSError:  # another is about to start it
+                    listener.close()
+            # It was about to end, or is about to start.
+            self._socket.close()
+            time.sleep(0.01)
+        return False
+
+    def _is_own(self) -> bool:
+        """Returns whether the other end is a process of the same user: anyone may take a name."""
+        peer = self._socket.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, struct.calcsize("3i"))
+        return int(struct.unpack("3i", peer)[1]) == os.geteuid()
 
     def close(self) -> None:
         """Ends the run, if one goes on, and the server; a shared one stays."""
@@ -187,11 +201,11 @@ class OwnProcesses:
 Starter = Union[ForkServer, OwnProcesses]
 
 
-def starter_of(command: Sequence[str], restrict: Restrict = None) -> Starter:
+def starter_of(command: Sequence[str], restrict: Restrict = None, is_shared: bool = False) -> Starter:
     """Returns what starts runs of a command: a program, behind the command that starts its ranks if there is
-    one."""
+    one. `is_shared`: as ForkServer says."""
     if len(command) == 1:
-        server = ForkServer(command[0], restrict)
+        server = ForkServer(command[0], restrict, is_shared)
         if server.serves:
             return server
         server.close()

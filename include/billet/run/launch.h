@@ -2,6 +2,8 @@
 #ifndef BILLET_RUN_LAUNCH_H
 #define BILLET_RUN_LAUNCH_H
 
+#include <sys/types.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,12 +25,16 @@ bool is_launched();
 /// Runs several scenes one after the other, each in a child of this process. The libraries are
 /// loaded once: that takes most of the time of a small scene. A child that crashes ends only
 /// itself; one that was stopped (ExitCode::stopped) is the last. Ctrl-C, SIGTERM and SIGUSR1 stop
-/// the current one.
+/// the current one and those after it; SIGUSR2 reaches the current one.
 ///
 /// Returns nothing in a child, with the index of its scene in `scene`; in this process, when all
 /// have ended, the exit code of the first one that has not ended with 0. To be called before MPI
 /// starts.
 std::optional<int> run_each(const std::vector<std::string> &scenes, std::size_t &scene);
+
+/// Forks a child that leads a group of processes and gets `last_signal` when this process ends.
+/// Returns what fork() does.
+pid_t fork_child(int last_signal);
 
 /// Lets a process that no launcher started run MPI without networks and without a daemon: these take
 /// two thirds of the time of `billet --version`. To be made before MPI starts, and to live until it

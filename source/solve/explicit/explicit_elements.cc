@@ -158,6 +158,7 @@ void ExplicitElements::set_temperatures(const double t) {
 
 double ExplicitElements::add_forces(const ExplicitBlock::Nodes &nodes, const ExplicitClock &clock,
                                     ExplicitWorks &works) {
+  ++ElementLoops::of_forces;
   double stable_step = std::numeric_limits<double>::infinity();
   elastic_energy_ = hourglass_energy_ = 0.;
   set_temperatures(clock.time());
