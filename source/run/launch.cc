@@ -157,9 +157,9 @@ std::optional<int> run_each(const std::vector<std::string> &scenes, std::size_t 
   const std::array<int, 4> signals = {{SIGINT, SIGTERM, SIGUSR1, SIGUSR2}};
   int first_code = static_cast<int>(ExitCode::success);
   for (scene = 0; scene < scenes.size(); ++scene) {
-    std::cout << "Scene " << scene + 1 << " of " << scenes.size() << ": " << scenes[scene] << std::endl;
     for (const int signal : signals)
       std::signal(signal, pass_on_to_run);
+    std::cout << "Scene " << scene + 1 << " of " << scenes.size() << ": " << scenes[scene] << std::endl;
     {
       const SignalsWait wait;
       current_run = fork_child(SIGKILL);
