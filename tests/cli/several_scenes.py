@@ -14,6 +14,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Callable
 
 from checks import (
     HERE,
@@ -113,25 +114,33 @@ def rest_of(process: subprocess.Popen[str]) -> tuple[int, str]:
     return process.returncode, text
 
 
-def ends(number: int) -> bool:
-    """Waits for a process that is no child of this one."""
+def comes_about(condition: Callable[[], bool]) -> bool:
+    """Waits for something."""
     last = time.monotonic() + PATIENCE
-    while Path(f"/proc/{number}/stat").exists() and time.monotonic() < last:
-        if Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()[0] == "Z":
-            return True
+    while not condition() and time.monotonic() < last:
         time.sleep(0.02)
-    return not Path(f"/proc/{number}/stat").exists()
+    return condition()
+
+
+def state_and_parent(number: int) -> tuple[str, int]:
+    """Returns the state of a process, as ps has it, and the number of its parent; Z for one that is gone."""
+    try:
+        state, parent = Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()[:2]
+    except (FileNotFoundError, ProcessLookupError):
+        return "Z", 0
+    return state, int(parent)
+
+
+def ends(number: int) -> bool:
+    """Waits for the end of a process that is no child of this one."""
+    return comes_about(lambda: state_and_parent(number)[0] == "Z")
 
 
 def child_of(number: int) -> int:
     """Waits for the child of a process."""
-    last = time.monotonic() + PATIENCE
-    while time.monotonic() < last:
-        children = Path(f"/proc/{number}/task/{number}/children").read_text().split()
-        if children:
-            return int(children[0])
-        time.sleep(0.02)
-    raise TimeoutError(f"process {number} has no child")
+    children = Path(f"/proc/{number}/task/{number}/children")
+    require(comes_about(lambda: bool(children.read_text())), f"process {number} has no child")
+    return int(children.read_text().split()[0])
 
 
 @check("a signal to stop ends the scene, also one that starts, and leaves out the others")
@@ -200,10 +209,7 @@ if not IS_SANITIZED:
             process = serve(server, "--force", "--set", LONG, "long.prm", "second.prm")
             scene = child_of(process)
             if leave == "server":
-                os.kill(
-                    int(Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[1]),
-                    signal.SIGKILL,
-                )
+                os.kill(state_and_parent(process)[1], signal.SIGKILL)
             server.close()
             require(ends(process) and ends(scene), f"without its {leave} the run goes on")
 

@@ -58,17 +58,18 @@ class ForkServer:
         else:
             self._socket, its_socket = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
             self._process = serving(program, its_socket, restrict)
-            self.serves = self._is_served()
-            if not self.serves:  # it does something else
+            self.serves = bool(self._is_served())
+            if not self.serves:
                 self._process.kill()
         atexit.register(self.close)
 
-    def _is_served(self) -> bool:
-        """Waits for a server's first message."""
+    def _is_served(self) -> bool | None:
+        """Waits for a server's first message. Returns whether there is one; None if none comes: the program
+        does something else."""
         try:
             return self._receive("i", self.PATIENCE) is not None
         except TimeoutError:
-            return False
+            return None
 
     def _join(self, program: Path, restrict: Restrict) -> bool:
         """Connects to the shared server, which is started if there is none. Returns whether it serves."""
@@ -85,8 +86,9 @@ class ForkServer:
                 self._socket.connect(address)
                 if not self._is_own():
                     return False
-                if self._is_served():
-                    return True
+                is_served = self._is_served()
+                if is_served is not False:
+                    return bool(is_served)
             except ConnectionRefusedError:
                 listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
                 try:
