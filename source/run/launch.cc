@@ -156,12 +156,14 @@ pid_t fork_child(const int last_signal) {
 std::optional<int> run_each(const std::vector<std::string> &scenes, std::size_t &scene) {
   const std::array<int, 4> signals = {{SIGINT, SIGTERM, SIGUSR1, SIGUSR2}};
   int first_code = static_cast<int>(ExitCode::success);
-  for (scene = 0; scene < scenes.size(); ++scene) {
+  for (scene = 0; scene < scenes.size() && is_to_stop == 0; ++scene) {
     for (const int signal : signals)
       std::signal(signal, pass_on_to_run);
     std::cout << "Scene " << scene + 1 << " of " << scenes.size() << ": " << scenes[scene] << std::endl;
     {
       const SignalsWait wait;
+      if (is_to_stop != 0)
+        break;
       current_run = fork_child(SIGKILL);
       if (current_run == 0) {
         for (const int signal : signals)
@@ -173,11 +175,10 @@ std::optional<int> run_each(const std::vector<std::string> &scenes, std::size_t 
         current_run > 0 ? wait_for_run(scenes[scene]) : static_cast<int>(ExitCode::internal_error);
     if (first_code == 0)
       first_code = code;
-    if (code == static_cast<int>(ExitCode::stopped) || is_to_stop != 0)
+    if (code == static_cast<int>(ExitCode::stopped))
       break;
   }
-  const bool is_cut = is_to_stop != 0 && scene + 1 < scenes.size();
-  return first_code == 0 && is_cut ? static_cast<int>(ExitCode::stopped) : first_code;
+  return first_code == 0 && scene < scenes.size() ? static_cast<int>(ExitCode::stopped) : first_code;
 }
 
 std::optional<int> launch(const std::vector<std::string> &arguments) {
